@@ -1,0 +1,25 @@
+# Libraries that burin is built on. Debian packages: cmake/packages.txt.
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+
+# find_package(OpenCV) offers forty modules; burin links these four and no other.
+find_package(OpenCV REQUIRED COMPONENTS core imgproc ximgproc quality)
+add_library(burin_opencv INTERFACE)
+target_include_directories(burin_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
+target_link_libraries(burin_opencv INTERFACE opencv_core opencv_imgproc opencv_ximgproc opencv_quality)
+
+# CGAL says more than a reader of the log needs.
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+set(CMAKE_MESSAGE_LOG_LEVEL_BEFORE ${CMAKE_MESSAGE_LOG_LEVEL})
+set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
+find_package(CGAL REQUIRED)
+find_package(OpenImageIO REQUIRED)
+set(CMAKE_MESSAGE_LOG_LEVEL ${CMAKE_MESSAGE_LOG_LEVEL_BEFORE})
+
+find_package(nlohmann_json REQUIRED)
+find_package(TBB REQUIRED)
+pkg_check_modules(tinygltf REQUIRED IMPORTED_TARGET tinygltf)
+pkg_check_modules(glm REQUIRED IMPORTED_TARGET glm)
+pkg_check_modules(osmesa REQUIRED IMPORTED_TARGET osmesa)
+pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)

@@ -1,0 +1,7 @@
+# Compile flags that every target of burin gets, as the interface target burin_flags.
+add_library(burin_flags INTERFACE)
+target_compile_options(burin_flags INTERFACE
+    -Wall -Wextra -Wshadow
+    # No fused multiply-add: equal bytes on every machine.
+    -ffp-contract=off
+    $<$<BOOL:${BURIN_WERROR}>:-Werror>)

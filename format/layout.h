@@ -1,0 +1,73 @@
+// Limits and bit widths of the two textures. The only place where they are written: valid C++ and valid GLSL
+// (330 core, ES 300), so that packer, validator and shader read the same numbers. SPECIFICATION.md gives the prose.
+//
+// Bit 0 is the least significant. A "word" is one 32-bit channel of an unsigned integer texel: x, y, z, w.
+#ifndef BURIN_LAYOUT_H
+#define BURIN_LAYOUT_H
+
+// ---- limits ----------------------------------------------------------------------------------------------
+#define BURIN_MAX_TEXTURE_SIDE 4096
+#define BURIN_MAX_REFS_PER_CELL 63
+#define BURIN_MAX_PROFILE_POINTS 32
+#define BURIN_MAX_STYLES 4096
+#define BURIN_MAX_ELEMENT_TEXELS 65536
+
+// ---- grid texture: RG32UI, one texel per cell, row-major, cell (0,0) at uv (0,0) --------------------------
+// x: bits 0-19 first reference (index of a 16-bit reference, see lists), 20-25 count, 26-29 skip, 30-31 flags
+// y: bits 0-15 level at the cell's centre (UNORM16 of the height range), 16-23 highest, 24-31 lowest (UNORM8)
+#define BURIN_CELL_FIRST_BITS 20
+#define BURIN_CELL_COUNT_BITS 6
+#define BURIN_CELL_SKIP_BITS 4
+#define BURIN_CELL_FLAG_ISOLATED 1u  // the listed elements are one smooth chain
+#define BURIN_CELL_FLAG_STEP 2u      // the path line of a step passes through the cell: its level varies
+
+// ---- data texture: RGBA32UI; sections elements, styles, profiles, materials, lists, each starting on a texel -
+// Element, texel A:
+//   x: 0-19 p0.u, 20-31 clip angle at the start      y: 0-19 p0.v, 20-31 clip angle at the end
+//   z: 0-19 p2.u, 20-23 start end-kind, 24-27 end end-kind, 28 quadratic, 29 has texel B
+//   w: 0-19 p2.v, 20-31 style
+// Element, texel B (when flagged; always for quadratics):
+//   x: 0-19 p1.u, 20-31 unused (zero)                  y: 0-19 p1.v, 20-31 unused (zero)
+//   z: 0-15 width scale at start, 16-31 at end           w: 0-15 height scale at start, 16-31 at end
+//   (p1 is ignored, and zero, for a line.) Without texel B all four scales are 1.
+// Coordinates are uv: value = code / BURIN_COORDINATE_STEPS - 0.5, range [-0.5, 1.5).
+#define BURIN_COORDINATE_BITS 20
+#define BURIN_COORDINATE_STEPS 524288.0
+// Clip angle of an undirected line: angle = code * pi / 4096, measured from +x (u) towards +y (v), in [0, pi).
+#define BURIN_CLIP_ANGLE_BITS 12
+#define BURIN_CLIP_ANGLE_STEPS 4096.0
+// Scales: value = code / 16384, range [0, 4).
+#define BURIN_SCALE_STEPS 16384.0
+
+// End-kind: bits 0-1 priority (which sides of the profile are given material back beyond the end's normal),
+// bits 2-3 shape.
+#define BURIN_PRIORITY_NONE 0u   // butt: the element stops at the normal of its end
+#define BURIN_PRIORITY_LEFT 1u   // corner, outer sector on the left (b < 0)
+#define BURIN_PRIORITY_RIGHT 2u  // corner, outer sector on the right (b > 0)
+#define BURIN_PRIORITY_BOTH 3u   // joint, T, or isolated end
+// shape with LEFT or RIGHT:
+#define BURIN_CORNER_MITRE 0u
+#define BURIN_CORNER_BEVEL 1u
+#define BURIN_CORNER_ROUND 2u
+// shape with BOTH:
+#define BURIN_END_CLIP 0u   // both sides run to the clip line: smooth joints and T-junctions
+#define BURIN_END_HIP 1u    // isolated end, profile at sign(b) max(|b|, t)
+#define BURIN_END_ROUND 2u  // isolated end, profile at sign(b) hypot(b, t)
+
+// Style texel: x: 0-15 profile's first texel (from the start of the profile section), 16-23 number of points,
+//                 24 step profile (its ends differ)
+//              y: 0-15 material, 16-31 level (UNORM16 of the height range): the height that h = 0 means
+//              z: reach in metres, float32 bits: |b| = 1 of the profile's codes
+//              w: bit i set when facet i (between points i and i + 1) is internal
+// Profile: points packed four to a texel, one word each: 0-15 b as SNORM16 of reach, 16-31 h as SNORM16 of depth.
+#define BURIN_POINTS_PER_TEXEL 4
+// Lists: 16-bit references, eight to a texel, low half first. A reference is the element's texel, counted from the
+// start of the element section.
+#define BURIN_REFS_PER_TEXEL 8
+// Material texel: x: base colour RGBA8 (linear, R lowest), y: 0-7 metallic, 8-15 roughness, 16 overrides the glTF
+// material. Material 0 always exists; without the override bit the glTF material holds.
+
+// Unorm/snorm decode: UNORM16 code/65535, UNORM8 code/255, SNORM16 clamp(code/32767, -1, 1) (two's complement).
+// Height range: height(1.0) = base_offset (object surface), height(0.0) = base_offset - depth.
+
+#endif

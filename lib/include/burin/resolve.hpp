@@ -1,0 +1,111 @@
+// Stage resolve: finds crossings, ends, corners and T-junctions, and gives every element end its priority.
+//
+//     Pattern --[resolve_pattern]--> ResolvedPattern
+//
+// A ResolvedPattern says for every element where in the plane it acts, so that truth, grid and shader need no
+// neighbour. Source: [2010] 5.3 and 5.4, DESIGN 2. Predicates and intersections are exact (CGAL).
+//
+// WHERE AN ELEMENT ACTS. Let V be an end of the element, t the unit tangent there pointing along the path, p a point.
+//   foot      the nearest point of the carrier: a line's infinite carrier; for a quadratic the arc itself, continued by
+//             the tangent lines at its ends. b = signed distance to it along n, side left when b < 0.
+//   a         how far p lies beyond the end: (V - p).t at the start, (p - V).t at the end; inside when a <= 0.
+//   clip line the line through V in direction (cos clip_angle, sin clip_angle). p is on the element's side when it
+//             lies on the same side as the element's interior near V.
+// The element acts at p, with offset b', when both ends allow it:
+//   priority none              a <= 0                                                    b' = b     (butt)
+//   priority both,  clip       p on the element's side of the clip line (both sides)     b' = b     (joint, T)
+//   priority both,  hip        always; where a > 0 b' = sign(b) max(|b|, a)
+//   priority both,  round      always; where a > 0 b' = sign(b) hypot(b, a)
+//   priority left (or right)   on that side, the outer sector: p on the element's side of the clip line; where a > 0
+//                              mitre b' = b; round b' = -|p - V| (left) or +|p - V| (right);
+//                              bevel b' = ((p - V).m) / cos(theta/2), m the unit sum of the two arms' normals n,
+//                              theta the angle between the arms' tangents; m is the normal of the clip line's
+//                              perpendicular, so it follows from clip angle and n: m = +-(cos, sin)(clip_angle), m.n > 0,
+//                              cos(theta/2) = m.n
+//                              on the other side, the inner sector: a <= 0
+// and when, besides, |b'| is within the profile scaled by the width scale at the foot (end values beyond the ends), and
+// the ground at p equals the level of the element's side there: `level` for a groove or the left of a step, the right
+// level for the right of a step. Two arms of a corner share one clip line (their bisector), so outer sectors meet
+// without gap. With height h = level + height_scale * profile(b' / width_scale):
+//   solid = (ground U all add) \ all cut,   H(p) = min( max(ground, add heights), cut heights )
+//   add: the part above the ground of that side;   cut: where b' lies in an internal facet, all above h (the wedge).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <burin/pattern.hpp>
+#include <burin/result.hpp>
+
+namespace burin {
+
+enum class Priority : std::uint8_t { none, left, right, both };  // values equal BURIN_PRIORITY_*
+enum class CornerShape : std::uint8_t { mitre, bevel, round };   // with left or right; values equal BURIN_CORNER_*
+enum class EndShape : std::uint8_t { clip, hip, round };         // with both; values equal BURIN_END_*
+
+struct ElementEnd {
+    Priority priority = Priority::none;
+    std::uint8_t shape = 0;   // CornerShape or EndShape, by priority; 0 with none
+    double clip_angle = 0.0;  // radians in [0, pi); 0 where unused
+};
+
+struct ResolvedElement {
+    Element element;
+    ElementEnd start, end;
+    std::uint32_t style = 0;
+    std::uint32_t path = 0;  // which Pattern path it came from: neighbours of one path follow each other
+};
+
+// Profile with classified facets, at the level of one region. Equal styles are stored once.
+struct Style {
+    std::uint32_t profile = 0;   // index into ResolvedPattern::profiles
+    std::uint32_t material = 0;  // index into ResolvedPattern::materials
+    double level = 0.0;          // height of h = 0
+    bool step = false;           // the profile's ends differ: ground changes at b = 0
+};
+
+struct ResolvedProfile {
+    std::vector<ProfilePoint> points;  // a point stands at b = 0 where a step profile crosses it
+    std::uint32_t internal_mask = 0;   // bit i: facet i between points i and i + 1 cuts
+};
+
+// A place where several elements meet: tests aim rays here.
+enum class JunctionKind : std::uint8_t { corner, crossing, tee, isolated_end, star };
+struct Junction {
+    JunctionKind kind = JunctionKind::corner;
+    Vec2 position;
+};
+
+struct ResolvedPattern {
+    Vec2 size{1.0, 1.0};
+    double depth = 0.01;
+    double base_offset = 0.0;
+    Wrap wrap = Wrap::repeat;
+    double outer_level = 0.0;
+    std::vector<ResolvedElement> elements;  // start in [0, size) when repeating; box within [-0.5, 1.5) * size
+    std::vector<Style> styles;
+    std::vector<ResolvedProfile> profiles;
+    std::vector<Material> materials;
+    std::vector<Junction> junctions;
+};
+
+struct ResolveOptions {
+    // Ends nearer than this to another path's line are taken to lie on it, metres as a fraction of the larger of
+    // size.x and size.y. Range [0, 0.01].
+    double snap = 1e-4;
+    // Angle below which two consecutive elements are one smooth joint, radians, [0, 0.5].
+    double smooth_angle = 0.05;
+    double mitre_limit = 4.0;  // ratio as in SVG, >= 1; a sharper corner is bevelled
+};
+
+// Ensures: elements that cross a step's path line are split there and carry the level of their side; elements that
+// leave [-0.5, 1.5) of the tile are split; every end has its priority; output depends on the input alone.
+// Fails with invalid_input, naming path and position: a path that does not connect, an index out of range, a profile
+// with wrong order or point count, step paths that cross each other, a step path that ends nowhere, a profile that
+// a vertical ray meets again above an internal facet and that has no explicit flags, a value that is not finite.
+// Cost: about n log n in elements, plus crossings.
+Result<ResolvedPattern> resolve_pattern(const Pattern& pattern, const ResolveOptions& options = {});
+
+}  // namespace burin
