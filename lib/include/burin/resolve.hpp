@@ -78,17 +78,31 @@ struct Junction {
     Vec2 position;
 };
 
+// What was tolerated. Counts of zero mean that the pattern was taken exactly as given.
+struct ResolveStats {
+    int dropped_elements = 0;   // of length zero, or equal to another element of the same style
+    int snapped_ends = 0;       // path ends moved onto another path or another end
+    int releveled = 0;          // grooves whose level was not that of the ground they lie in
+    int step_crossings = 0;     // places where a groove was split at a step
+    int uneven_levels = 0;      // step paths whose level differs from that of a step facing them; kept as given
+    int dropped_paths = 0;      // lenient only: paths that would have been an error
+    std::string first_dropped;  // the message that the first of them would have been
+};
+
 struct ResolvedPattern {
     Vec2 size{1.0, 1.0};
     double depth = 0.01;
     double base_offset = 0.0;
     Wrap wrap = Wrap::repeat;
     double outer_level = 0.0;
-    std::vector<ResolvedElement> elements;  // start in [0, size) when repeating; box within [-0.5, 1.5) * size
+    // When repeating: start in [0, size), box within [-0.5, 1.5) * size, and every point where the element acts lies within
+    // 0.45 size of its chord's midpoint along each axis, so that "the nearest copy" (grid.hpp) is never in doubt.
+    std::vector<ResolvedElement> elements;
     std::vector<Style> styles;
     std::vector<ResolvedProfile> profiles;
     std::vector<Material> materials;
     std::vector<Junction> junctions;
+    ResolveStats stats;
 };
 
 struct ResolveOptions {
@@ -98,10 +112,14 @@ struct ResolveOptions {
     // Angle below which two consecutive elements are one smooth joint, radians, [0, 0.5].
     double smooth_angle = 0.05;
     double mitre_limit = 4.0;  // ratio as in SVG, >= 1; a sharper corner is bevelled
+    bool lenient = false;      // drop a path that is in error, count it, and go on: what traced maps need
 };
 
+// The level of two sides of one region may differ by rounding: compare levels with a tolerance of depth / 4096.
+//
 // Ensures: elements that cross a step's path line are split there and carry the level of their side; elements that
-// leave [-0.5, 1.5) of the tile are split; every end has its priority; output depends on the input alone.
+// leave [-0.5, 1.5) of the tile are split; a quadratic turns by at most 90 degrees; every end has its priority; output
+// depends on the input alone. An open end on the border of a clamped map runs to it; a step path may end there.
 // Fails with invalid_input, naming path and position: a path that does not connect, an index out of range, a profile
 // with wrong order or point count, step paths that cross each other, a step path that ends nowhere, a profile that
 // a vertical ray meets again above an internal facet and that has no explicit flags, a value that is not finite.

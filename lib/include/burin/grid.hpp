@@ -1,0 +1,74 @@
+// Stage grid: decides which elements each cell of the grid texture lists, and what a ray may skip.
+//
+//     ResolvedPattern --[build_grid]--> CellGrid --[pack_textures]--> bytes
+//
+// Cell (i, j) is the rectangle [i, i+1) / cols x [j, j+1) / rows of uv, row-major, (0,0) at uv (0,0). Its MARGIN
+// RECTANGLE is the cell grown by `margin` cell sides on each side: a decoder may ask for points a little outside
+// a cell (antialiasing) and still read one cell only. Source: [2010] 4.2, 4.3; DESIGN 3 and 4.
+//
+// WHICH IMAGE. When the pattern repeats, a reference to element e in cell (i, j) means exactly one translated copy of e:
+// the one whose chord midpoint m = (p0 + p2) / 2 is nearest to the cell's centre c along each axis,
+//     offset = size * floor((c - m) / size + 0.5)      (per axis, size = pattern size; floor of the double value)
+// No cell lists an element that would have to act in it through two copies: `resolve_pattern` cuts elements short
+// enough, and `build_grid` uses enough cells, so that a copy that reaches a cell is the nearest one by a margin (never
+// near the rounding tie). With clamp the offset is 0.
+//
+// COMPLETE. For every point p of the margin rectangle (inside [0, size] when clamped) the listed elements contain
+//   - every element that acts at p (resolve.hpp), and
+//   - where the cell has BURIN_CELL_FLAG_STEP: the step element whose arc is nearest to p, so that the side of the
+//     nearest listed step element gives the ground at p. Of two that share the nearest point (a corner) decides the
+//     one from whose tangent line there p is farther away.
+// In a cell without that flag the ground is `level` everywhere.
+// TIGHT. An element is listed only where its path line, widened by its reach there (profile, width scale, mitre
+// tip, cap), comes nearer to the margin rectangle than a thousandth of a cell, or by the second rule.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <burin/resolve.hpp>
+#include <burin/result.hpp>
+
+namespace burin {
+
+struct GridOptions {
+    double cell_size = 0.0;     // metres, side of a cell at most; 0: chosen by the cost model below
+    std::size_t max_bytes = 0;  // budget for cells (8 bytes) and references (2 bytes) the cost model keeps to; 0: none
+    double margin = 0.0625;     // in cell sides, [0, 1]
+    int threads = 0;            // 0: as many as the machine has; the result does not depend on it
+};
+
+struct CellGrid {
+    int cols = 0;  // [1, BURIN_MAX_TEXTURE_SIDE]
+    int rows = 0;  // [1, BURIN_MAX_TEXTURE_SIDE]
+    std::vector<std::uint32_t> first_ref;  // cols * rows + 1 entries: cell k lists refs[first_ref[k] .. first_ref[k + 1])
+    std::vector<std::uint32_t> refs;       // indices into ResolvedPattern::elements, ascending within a cell
+    std::vector<double> level;             // ground at the cell's centre, metres
+    std::vector<double> highest, lowest;   // bounds of the surface in the margin rectangle, metres; conservative
+    // Every cell of the square of (2 skip + 1)^2 cells around this one lists nothing and has the same level, so a ray
+    // may go on where it leaves that square. 0 for a cell that lists something. The square never passes the border
+    // of a clamped map; in a repeating one it wraps and is smaller than the map. [0, 15]
+    std::vector<std::uint8_t> skip;
+    // BURIN_CELL_FLAG_STEP: a step's path line meets the margin rectangle.
+    // BURIN_CELL_FLAG_ISOLATED: the listed elements follow each other in one path, are joined smoothly (both, clip on
+    // one line), and no other kind of end acts in the margin rectangle. Set for an empty cell without step, too.
+    std::vector<std::uint8_t> flags;
+};
+
+// Bytes of the cells and lists as packed, before equal lists are merged.
+inline std::size_t grid_bytes(const CellGrid& grid) {
+    return 8 * grid.level.size() + 2 * grid.refs.size();
+}
+
+// Cost model: the expected work of a ray is cells visited + elements listed per cell visited, over sizes near 2 to 3
+// mean feature widths; the cheapest size is taken that keeps to the budget and to 63 references per cell.
+// Requires: the result of resolve_pattern (or of unpack_textures).
+// Ensures: as above; the same bytes for any thread count.
+// Fails: invalid_argument for an option out of range; limit_exceeded when a cell needs more than
+// BURIN_MAX_REFS_PER_CELL references at any allowed size, naming cell, count and the size that would fit, and when an
+// element reaches around the tile.
+// Cost: about n log n in elements plus the number of references; two passes, threaded.
+Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& options = {});
+
+}  // namespace burin
