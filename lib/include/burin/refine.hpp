@@ -1,0 +1,57 @@
+// Stage refine: moves a pattern that is nearly right until its box-filtered surface matches the map.
+//
+//     height map + Pattern (within about a texel) --[refine_pattern]--> the same Pattern, in the least-squares place
+//
+// A sample of a map is the mean of the surface over a texel, so an edge point read off the samples is biased by up to
+// 0.06 texel where a wall is sharper than a texel. Only a model that integrates over the texel has no such bias: here
+// every texel's mean is computed from the pattern in closed form (a polyline profile swept along a line, integrated
+// over a square, is a difference of cubics), and the unknowns of whole paths are solved for at once by a damped
+// Gauss-Newton iteration with a robust loss. Source: DESIGN 3, Fit; surface as in DESIGN 2 and `resolve.hpp`.
+#pragma once
+
+#include <burin/image.hpp>
+#include <burin/pattern.hpp>
+#include <burin/result.hpp>
+
+namespace burin {
+
+struct RefineOptions {
+    int iterations = 12;              // most Gauss-Newton steps; stops earlier when nothing moves. >= 0
+    double max_shift_texels = 1.5;    // no control point ends farther than this from where it began. > 0
+    bool positions = true;            // control points, junctions, ends
+    bool profiles = true;             // offsets b and heights h of the profiles
+    bool levels = true;               // levels of the regions
+    bool scales = true;               // width and height scales, of paths that have any other than 1
+    // Ends nearer than this to another path's line lie on it and stay on it; metres as a fraction of the larger side,
+    // as ResolveOptions::snap. Range [0, 0.01].
+    double snap = 1e-4;
+    // A groove whose flat bottom is narrower than this shows the map only its cross-section's area: its heights are
+    // held as they came, and its width alone is fitted. Texels, >= 0.
+    double narrow_texels = 1.0;
+    int threads = 0;                  // 0: as many as the machine has. The result does not depend on it.
+};
+
+struct RefineReport {
+    double rms_before = 0.0;          // of map minus model over the texels near features, map scale 0..1
+    double rms_after = 0.0;
+    int iterations = 0;               // steps that were taken
+    int unknowns = 0;
+    double largest_shift_texels = 0;  // of any control point
+};
+
+// What is kept: the number of paths and elements and their kinds; ends that coincide coincide, and neighbours share
+// their point bit by bit; an end on another path's line slides along it (T); smooth joints (below
+// ResolveOptions::smooth_angle, with a quadratic at one side) stay tangent; collinear neighbours stay collinear; ends
+// on the border of a clamped pattern slide along the border; a profile is one for all its paths; symmetric profiles
+// stay symmetric, flat facets flat, vertical walls vertical; regions at one level stay at one level, and a step
+// profile's last height follows the levels of its two regions.
+//
+// Requires: map covers [0, size] of the pattern, values as `pattern.hpp` defines them (1 = object surface).
+// Ensures: the pattern never fits the map worse than before (else it is returned as it came); equal bytes for any
+// number of threads. Heights stay within [lowest, highest].
+// Fails with invalid_argument on options out of range or an empty map, and with the error of `resolve_pattern` when
+// the pattern cannot be resolved; the pattern is then unchanged.
+// Cost: about 0.1 microseconds per texel near a feature and step, ten times that within a few texels of junctions.
+Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const RefineOptions& options = {});
+
+}  // namespace burin
