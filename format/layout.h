@@ -9,12 +9,18 @@
 #define BURIN_MAX_TEXTURE_SIDE 4096
 #define BURIN_MAX_REFS_PER_CELL 63
 #define BURIN_MAX_PROFILE_POINTS 32
-#define BURIN_MAX_STYLES 4096
 #define BURIN_MAX_ELEMENT_TEXELS 65536
+#define BURIN_MAX_STYLES 4096
+#define BURIN_MAX_PROFILE_TEXELS 65536
+#define BURIN_MAX_MATERIALS 512
+#define BURIN_MAX_LIST_TEXELS 131072
 
 // ---- grid texture: RG32UI, one texel per cell, row-major, cell (0,0) at uv (0,0) --------------------------
-// x: bits 0-19 first reference (index of a 16-bit reference, see lists), 20-25 count, 26-29 skip, 30-31 flags
+// x: bits 0-19 first reference (index of a 16-bit reference, see lists; 0 when count is 0), 20-25 count, 26-29 skip,
+//    30-31 flags
 // y: bits 0-15 level at the cell's centre (UNORM16 of the height range), 16-23 highest, 24-31 lowest (UNORM8)
+// skip s: every cell (i + dx, j + dy) with |dx| <= s and |dy| <= s lists nothing and has this cell's level (indices wrap
+// when the pattern repeats); 0 where the cell lists something.
 #define BURIN_CELL_FIRST_BITS 20
 #define BURIN_CELL_COUNT_BITS 6
 #define BURIN_CELL_SKIP_BITS 4
@@ -33,6 +39,9 @@
 // Coordinates are uv: value = code / BURIN_COORDINATE_STEPS - 0.5, range [-0.5, 1.5).
 #define BURIN_COORDINATE_BITS 20
 #define BURIN_COORDINATE_STEPS 524288.0
+// When the pattern repeats, element and point are brought together by the integer shift that puts p nearest to the
+// middle m of the box of the element's control points: p + k, k = floor(m - p + 0.5) in u and in v. So that one shift
+// suffices, that box widened by reach * width scale on each side is at most one tile wide and high.
 // Clip angle of an undirected line: angle = code * pi / 4096, measured from +x (u) towards +y (v), in [0, pi).
 #define BURIN_CLIP_ANGLE_BITS 12
 #define BURIN_CLIP_ANGLE_STEPS 4096.0
@@ -54,12 +63,15 @@
 #define BURIN_END_HIP 1u    // isolated end, profile at sign(b) max(|b|, t)
 #define BURIN_END_ROUND 2u  // isolated end, profile at sign(b) hypot(b, t)
 
-// Style texel: x: 0-15 profile's first texel (from the start of the profile section), 16-23 number of points,
-//                 24 step profile (its ends differ)
-//              y: 0-15 material, 16-31 level (UNORM16 of the height range): the height that h = 0 means
+// Style texel: x: 0-15 profile's first texel (from the start of the profile section), 16-21 number of points,
+//                 22 step (its two levels differ), 23-31 material
+//              y: 0-15 level on the left: the height that h = 0 means; 16-31 level on the right, the same unless a step
+//                 (UNORM16 of the height range; compared as codes with the ground's level, so never computed from h)
 //              z: reach in metres, float32 bits: |b| = 1 of the profile's codes
 //              w: bit i set when facet i (between points i and i + 1) is internal
 // Profile: points packed four to a texel, one word each: 0-15 b as SNORM16 of reach, 16-31 h as SNORM16 of depth.
+#define BURIN_STYLE_POINTS_BITS 6
+#define BURIN_STYLE_MATERIAL_BITS 9
 #define BURIN_POINTS_PER_TEXEL 4
 // Lists: 16-bit references, eight to a texel, low half first. A reference is the element's texel, counted from the
 // start of the element section.
