@@ -24,8 +24,12 @@
 #define BURIN_CELL_FIRST_BITS 20
 #define BURIN_CELL_COUNT_BITS 6
 #define BURIN_CELL_SKIP_BITS 4
-#define BURIN_CELL_FLAG_ISOLATED 1u  // the listed elements are one smooth chain
-#define BURIN_CELL_FLAG_STEP 2u      // the path line of a step passes through the cell: its level varies
+// ISOLATED: the listed elements follow each other in one path and are joined smoothly (or nothing is listed).
+// STEP: the path line of a step passes through the cell, so that its level varies.
+#define BURIN_CELL_FLAG_ISOLATED 1u
+#define BURIN_CELL_FLAG_STEP 2u
+// Ground at p in a cell with STEP: walk from the cell's centre to p; the step path line crossed last (of the cell's list)
+// gives the level of the side walked to; none crossed: the cell's level. Without STEP: the cell's level.
 
 // ---- data texture: RGBA32UI; sections elements, styles, profiles, materials, lists, each starting on a texel -
 // Element, texel A:
@@ -39,9 +43,8 @@
 // Coordinates are uv: value = code / BURIN_COORDINATE_STEPS - 0.5, range [-0.5, 1.5).
 #define BURIN_COORDINATE_BITS 20
 #define BURIN_COORDINATE_STEPS 524288.0
-// When the pattern repeats, element and point are brought together by the integer shift that puts p nearest to the
-// middle m of the box of the element's control points: p + k, k = floor(m - p + 0.5) in u and in v. So that one shift
-// suffices, that box widened by reach * width scale on each side is at most one tile wide and high.
+// When the pattern repeats, a reference in a cell means one copy of the element: moved by the whole tiles that bring its
+// chord's midpoint m = (p0 + p2) / 2 nearest to the cell's centre c, k = floor(c - m + 0.5) in u and in v.
 // Clip angle of an undirected line: angle = code * pi / 4096, measured from +x (u) towards +y (v), in [0, pi).
 #define BURIN_CLIP_ANGLE_BITS 12
 #define BURIN_CLIP_ANGLE_STEPS 4096.0
