@@ -15,12 +15,12 @@
 //
 // COMPLETE. For every point p of the margin rectangle (inside [0, size] when clamped) the listed elements contain
 //   - every element that acts at p (resolve.hpp), and
-//   - where the cell has BURIN_CELL_FLAG_STEP: the step element whose arc is nearest to p, so that the side of the
-//     nearest listed step element gives the ground at p. Of two that share the nearest point (a corner) decides the
-//     one from whose tangent line there p is farther away.
-// In a cell without that flag the ground is `level` everywhere.
+//   - every step element whose arc passes through the margin rectangle; then the cell has BURIN_CELL_FLAG_STEP.
+// So the ground at p follows from the cell alone: on the straight way from the cell's centre to p, the arc of a listed step
+// that is crossed last gives the level of the side walked to; none crossed: `level`. Without the flag the ground is
+// `level` everywhere. Sizes are preferred at which no step runs along the centres of a row or column of cells.
 // TIGHT. An element is listed only where its path line, widened by its reach there (profile, width scale, mitre
-// tip, cap), comes nearer to the margin rectangle than a thousandth of a cell, or by the second rule.
+// tip, cap), comes nearer to the margin rectangle than a thousandth of a cell.
 #pragma once
 
 #include <cstddef>
