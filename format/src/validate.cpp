@@ -1,0 +1,181 @@
+// The validator's order of work: container, extension JSON, buffer views, textures; one function per step.
+#include <burin/format/validate.hpp>
+
+#include <algorithm>
+#include <set>
+
+#include "container.hpp"
+#include "extension_json.hpp"
+#include "texture_check.hpp"
+
+namespace burin {
+namespace {
+
+using nlohmann::json;
+
+bool names_extension(const json& document, const char* list, Reporter& reporter) {
+    const json* names = find_array(document, list, reporter);
+    if (names == nullptr) return false;
+    return std::any_of(names->begin(), names->end(), [](const json& name) {
+        return name.is_string() && name.get_ref<const std::string&>() == kPathDetailExtension;
+    });
+}
+
+const json* find_extension(const json& material) {
+    if (!material.is_object()) return nullptr;
+    const auto extensions = material.find("extensions");
+    if (extensions == material.end() || !extensions->is_object()) return nullptr;
+    const auto found = extensions->find(std::string(kPathDetailExtension));
+    return found == extensions->end() ? nullptr : &*found;
+}
+
+// Sizes that do not fit make every further check meaningless.
+bool check_sizes(const PackedTextures& t, const PathDetail& d, Reporter& reporter) {
+    const auto words = [](int width, int height, std::size_t channels) {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * channels;
+    };
+    const auto side = [](int value) { return value >= 1 && value <= BURIN_MAX_TEXTURE_SIDE; };
+    if (!side(t.grid_width) || !side(t.grid_height) || !side(t.data_width) || !side(t.data_height)) {
+        reporter.report(2013, "a texture's side is outside of [1, 4096]");
+        return false;
+    }
+    const bool same = t.grid_width == d.grid_width && t.grid_height == d.grid_height && t.data_width == d.data_width &&
+                      t.data_height == d.data_height;
+    if (!same || t.grid.size() != words(t.grid_width, t.grid_height, 2) ||
+        t.data.size() != words(t.data_width, t.data_height, 4)) {
+        reporter.report(2017, "the textures' words do not make up the sides that the extension states");
+        return false;
+    }
+    const Sections& s = t.sections;
+    const bool limits = s.element_texels <= BURIN_MAX_ELEMENT_TEXELS && s.style_texels <= BURIN_MAX_STYLES &&
+                        s.profile_texels <= BURIN_MAX_PROFILE_TEXELS && s.material_texels >= 1 &&
+                        s.material_texels <= BURIN_MAX_MATERIALS && s.list_texels <= BURIN_MAX_LIST_TEXELS;
+    const bool equal = s.element_texels == d.sections.element_texels && s.style_texels == d.sections.style_texels &&
+                       s.profile_texels == d.sections.profile_texels &&
+                       s.material_texels == d.sections.material_texels && s.list_texels == d.sections.list_texels;
+    if (!limits || !equal) {
+        reporter.report(2015, "a section's length is beyond its limit or not the one that the extension states");
+        return false;
+    }
+    if (s.end() > words(t.data_width, t.data_height, 1)) {
+        reporter.report(2014, "the sections take " + std::to_string(s.end()) + " texels, more than the texture has");
+        return false;
+    }
+    return true;
+}
+
+void check_textures(const PackedTextures& textures, const PathDetail& detail, Reporter& reporter) {
+    if (!check_sizes(textures, detail, reporter)) return;
+    const DecodedData data = check_data(textures, detail, reporter);
+    check_grid(textures, detail, data, reporter);
+    check_steps(textures, detail, data, reporter);
+}
+
+void check_material(const json& extension, Buffers& buffers, Reporter& reporter) {
+    PathDetail detail;
+    const std::string prefix = reporter.prefix();
+    if (!read_extension(extension, detail, reporter)) return;
+    const auto texels = [](int width, int height) {
+        return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    };
+    reporter.set_prefix({});
+    const auto grid = buffers.view(detail.grid_view, 8 * texels(detail.grid_width, detail.grid_height), prefix + "/grid");
+    const auto data = buffers.view(detail.data_view, 16 * texels(detail.data_width, detail.data_height), prefix + "/data");
+    reporter.set_prefix(prefix);
+    if (!grid || !data) return;
+    check_textures({detail.grid_width, detail.grid_height, words_from_bytes(*grid), detail.data_width,
+                    detail.data_height, words_from_bytes(*data), detail.sections},
+                   detail, reporter);
+}
+
+// A primitive with the material needs the texture coordinates that the extension names.
+void check_primitives(const json& document, const std::map<std::size_t, std::string>& attribute_of_material,
+                      Reporter& reporter) {
+    const json* meshes = find_array(document, "meshes", reporter);
+    if (meshes == nullptr) return;
+    for (std::size_t m = 0; m < meshes->size(); ++m) {
+        const json& mesh = (*meshes)[m];
+        const auto primitives = mesh.is_object() ? mesh.find("primitives") : mesh.end();
+        if (!mesh.is_object() || primitives == mesh.end() || !primitives->is_array()) continue;
+        for (std::size_t p = 0; p < primitives->size(); ++p) {
+            const json& primitive = (*primitives)[p];
+            std::int64_t material = 0;
+            if (!primitive.is_object() || !primitive.contains("material") ||
+                !read_integer(primitive["material"], 0, 1 << 30, material)) {
+                continue;
+            }
+            const auto wanted = attribute_of_material.find(static_cast<std::size_t>(material));
+            if (wanted == attribute_of_material.end()) continue;
+            const auto attributes = primitive.find("attributes");
+            if (attributes != primitive.end() && attributes->is_object() && attributes->contains(wanted->second)) continue;
+            reporter.report(2022, "the primitive has no " + wanted->second + ", which its material's texCoord names",
+                            "/meshes/" + std::to_string(m) + "/primitives/" + std::to_string(p));
+        }
+    }
+}
+
+void check_document(const Container& container, const ValidateOptions& options, Reporter& reporter) {
+    const json& document = container.document;
+    const bool used = names_extension(document, "extensionsUsed", reporter);
+    if (names_extension(document, "extensionsRequired", reporter)) {
+        reporter.report(2002, "the extension is listed in extensionsRequired, its fallback would never be shown",
+                        "/extensionsRequired");
+    }
+    const json* materials = find_array(document, "materials", reporter);
+    Buffers buffers(container, options, reporter);
+    std::map<std::size_t, std::string> attribute_of_material;
+    for (std::size_t i = 0; materials != nullptr && i < materials->size(); ++i) {
+        const json* extension = find_extension((*materials)[i]);
+        if (extension == nullptr) continue;
+        std::int64_t tex_coord = 0;
+        if (extension->is_object() && extension->contains("texCoord")) read_integer((*extension)["texCoord"], 0, 255, tex_coord);
+        attribute_of_material[i] = "TEXCOORD_" + std::to_string(tex_coord);
+        reporter.set_prefix("/materials/" + std::to_string(i) + "/extensions/" + std::string(kPathDetailExtension));
+        check_material(*extension, buffers, reporter);
+        reporter.set_prefix({});
+    }
+    if (!attribute_of_material.empty() && !used) {
+        reporter.report(2001, "a material has the extension, extensionsUsed does not list it", "/extensionsUsed");
+    }
+    if (attribute_of_material.empty()) {
+        reporter.report(2021, "no material has " + std::string(kPathDetailExtension), "/materials");
+    }
+    check_primitives(document, attribute_of_material, reporter);
+}
+
+}  // namespace
+
+void validate_glb(std::span<const std::uint8_t> bytes, const IssueSink& sink, const ValidateOptions& options) {
+    Reporter reporter(sink, options.max_issues_per_number);
+    const std::optional<Container> container = read_container(bytes, reporter);
+    if (container) check_document(*container, options, reporter);
+    reporter.close();
+}
+
+bool validate_textures(const PackedTextures& textures, const PathDetail& detail, const IssueSink& sink,
+                       std::string_view pointer) {
+    Reporter reporter(sink, ValidateOptions{}.max_issues_per_number);
+    reporter.set_prefix(pointer);
+    check_textures(textures, detail, reporter);
+    reporter.close();
+    return reporter.errors() == 0;
+}
+
+std::vector<std::uint32_t> words_from_bytes(std::span<const std::uint8_t> bytes) {
+    std::vector<std::uint32_t> words(bytes.size() / 4);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        words[i] = static_cast<std::uint32_t>(bytes[4 * i]) | static_cast<std::uint32_t>(bytes[4 * i + 1]) << 8 |
+                   static_cast<std::uint32_t>(bytes[4 * i + 2]) << 16 | static_cast<std::uint32_t>(bytes[4 * i + 3]) << 24;
+    }
+    return words;
+}
+
+std::vector<std::uint8_t> bytes_from_words(std::span<const std::uint32_t> words) {
+    std::vector<std::uint8_t> bytes(words.size() * 4);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        bytes[i] = static_cast<std::uint8_t>(words[i / 4] >> (8 * (i % 4)));
+    }
+    return bytes;
+}
+
+}  // namespace burin
