@@ -2,6 +2,8 @@
 add_library(burin_flags INTERFACE)
 target_compile_options(burin_flags INTERFACE
     -Wall -Wextra -Wshadow
+    # Designated initialisers leave defaults alone on purpose.
+    -Wno-missing-field-initializers
     # No fused multiply-add: equal bytes on every machine.
     -ffp-contract=off
     $<$<BOOL:${BURIN_WERROR}>:-Werror>)

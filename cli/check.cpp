@@ -1,0 +1,77 @@
+// burin check: the height figures of an asset against the map it was made from. 1 when above --max-rms.
+#include <cmath>
+#include <string>
+
+#include <burin/compare.hpp>
+#include <burin/model.hpp>
+#include <burin/pack.hpp>
+#include <burin/rasterize.hpp>
+
+#include <gl/render.hpp>
+
+#include "asset_file.hpp"
+#include "command.hpp"
+#include "options.hpp"
+#include "report.hpp"
+
+namespace burin::cli {
+namespace {
+
+// The heights that the file's own textures stand for, at the map's size.
+Result<Image> reconstruct(const Arguments& arguments, const Asset& asset, std::size_t material, const Image& map) {
+    const MaterialInfo& info = asset.materials[material];
+    if (arguments.text("--with") == "shader")
+        return render_top(asset, map.width, map.height, top_options(arguments, static_cast<int>(material)));
+    auto unpacked = unpack_textures(info.textures, info.detail);
+    if (!unpacked) return unpacked.error();
+    RasterizeOptions options;
+    options.threads = arguments.integer("--threads");
+    return rasterize_height(unpacked->pattern, map.width, map.height, options);
+}
+
+void add_figures(Report& report, const Comparison& figures) {
+    const auto share = [&](const char* key, const char* label, double value) {
+        report.add({key, label, value, percent_text(value, 3) + " of range"});
+    };
+    report.add({"explained", "explained", figures.explained, number_text(figures.explained)});
+    share("rms", "RMS error", figures.rms);
+    share("rms_without_smooth", "  smooth removed", std::sqrt(figures.error_variance));
+    share("p999", "99.9th percentile", figures.p999);
+    share("max", "largest error", figures.max);
+    share("mean_error", "mean error", figures.mean_error);
+    report.add_group("worst_texel", "worst texel",
+                     {{"x", "x", std::int64_t{figures.worst_x}, ""}, {"y", "y", std::int64_t{figures.worst_y}, ""}});
+}
+
+}  // namespace
+
+ExitCode run_check(const Arguments& arguments) {
+    const auto file = read_asset_file(arguments.file);
+    if (!file) return fail(arguments, code_for_input(file.error()), file.error().message);
+    const auto material = find_patterned_material(file->asset, arguments.text("--material"));
+    if (!material) return fail(arguments, code_for_input(material.error()), material.error().message);
+    const auto map = read_map(arguments.text("--against"), arguments);
+    if (!map) return fail(arguments, code_for_input(map.error()), map.error().message);
+    const auto heights = reconstruct(arguments, file->asset, *material, map->image);
+    if (!heights) return fail(arguments, code_for_input(heights.error()), heights.error().message);
+
+    const PathDetail& detail = file->asset.materials[*material].detail;
+    const Comparison figures =
+        compare_heights(*heights, map->image, detail.repeat ? Wrap::repeat : Wrap::clamp);
+    // Percent of range on the command line, a share in the library.
+    const bool bounded = arguments.given("--max-rms");
+    const bool passed = !bounded || figures.rms * 100.0 <= arguments.number("--max-rms");
+
+    Report report;
+    report.add({"asset", "asset", arguments.file, ""});
+    report.add({"map", "map", arguments.text("--against"), ""});
+    report.add_group("texels", "texels",
+                     {{"width", "width", std::int64_t{map->image.width}, ""},
+                      {"height", "height", std::int64_t{map->image.height}, ""}});
+    add_figures(report, figures);
+    if (bounded) report.add({"passed", "within --max-rms", passed, ""});
+    report.print(arguments);
+    return passed ? ExitCode::done : ExitCode::no;
+}
+
+}  // namespace burin::cli

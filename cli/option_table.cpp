@@ -1,0 +1,99 @@
+// The table itself. Defaults that a stage defines are taken from its options struct, so that they stand once.
+#include <string>
+
+#include <burin/vectorize.hpp>
+
+#include "options.hpp"
+
+namespace burin::cli {
+namespace {
+
+constexpr auto flag = OptionKind::flag;
+constexpr auto text = OptionKind::text;
+constexpr auto number = OptionKind::number;
+constexpr auto integer = OptionKind::integer;
+constexpr auto choice = OptionKind::choice;
+constexpr auto extent = OptionKind::extent;
+constexpr auto numbers = OptionKind::numbers;
+
+std::string plain(double value) {
+    std::string digits = std::to_string(value);
+    digits.erase(digits.find_last_not_of('0') + 1);
+    if (digits.back() == '.') digits.pop_back();
+    return digits;
+}
+
+std::vector<OptionSpec> make_table() {
+    const VectorizeOptions vectorize;
+    const std::string depth = plain(vectorize.depth);
+    const std::string tolerance = plain(vectorize.tolerance);
+    return {
+        // name, commands, kind, argument, unit, fallback, low, high, choices, required, help
+        {"--output,-o", "convert", text, "OUT.glb", "", "", 0, 0, "", true, "the asset to write"},
+        {"--output,-o", "render", text, "PICTURE", "", "", 0, 0, "", true,
+         "the picture to write: .png; with --top also .exr or .tif"},
+        {"--against", "check", text, "MAP", "", "", 0, 0, "", true, "the height map the asset was made from"},
+
+        {"--model", "convert", text, "FILE", "", "", 0, 0, "", false,
+         "put the pattern on this glTF, glb or obj; without it, on a rectangle"},
+        {"--material", "convert render check", text, "NAME", "", "", 0, 0, "", false,
+         "which material, where the file has several"},
+        {"--size", "convert", extent, "W[xH]", "m", "1", 1e-6, 1e6, "", false,
+         "extent of the map along u and v; H follows from the map when left out"},
+        {"--depth", "convert", number, "METRES", "m", depth, 1e-9, 1e5, "", false,
+         "height difference between white and black"},
+        {"--polarity", "convert check info", choice, "WHICH", "", "height", 0, 0, "height|depth", false,
+         "what white means: height, the surface; depth, the deepest point"},
+        {"--channel", "convert check info", choice, "WHICH", "", "automatic", 0, 0,
+         "automatic|red|green|blue|alpha|luminance", false, "which channel of the map holds the heights"},
+        {"--wrap", "convert", choice, "WHICH", "", "automatic", 0, 0, "automatic|repeat|clamp", false,
+         "whether the map tiles; automatic looks at its borders"},
+        {"--max-error", "convert", number, "TEXELS", "texels", tolerance, 0, 8, "", false,
+         "farthest a curve may lie from the traced line; 0 chooses by the map's grain"},
+        {"--cell-size", "convert", number, "METRES", "m", "0", 0, 1e6, "", false,
+         "side of a grid cell; 0 chooses by a cost model"},
+        {"--threads", "convert check render", integer, "COUNT", "", "0", 0, 256, "", false,
+         "threads to work with, 0 for all cores; the result does not depend on it"},
+
+        {"--max-rms", "check", number, "PERCENT", "% of range", "", 0, 100, "", false,
+         "end with 1 when the RMS height error is above this"},
+        {"--with", "check", choice, "WHICH", "", "truth", 0, 0, "truth|shader", false,
+         "who reconstructs the heights: the evaluator of the library, or the shader"},
+
+        {"--size", "render", extent, "W[xH]", "px", "1024x768", 1, 8192, "", false, "size of the picture"},
+        {"--top", "render", flag, "", "", "", 0, 0, "", false,
+         "heights of the whole pattern from straight above, 1 the surface and 0 the deepest point"},
+        {"--azimuth", "render", number, "DEGREES", "deg", "30", -360, 360, "", false,
+         "where the camera stands around the asset, 0 in front"},
+        {"--elevation", "render", number, "DEGREES", "deg", "50", -90, 90, "", false,
+         "how high the camera stands, 90 straight above"},
+        {"--zoom", "render", number, "FACTOR", "", "1", 0.01, 10000, "", false,
+         "1 shows all of it, 8 an eighth of the width"},
+        {"--center", "render", numbers, "U,V", "uv", "0.5,0.5", -1000, 1000, "", false,
+         "point of a flat asset that the camera looks at"},
+        {"--fov", "render", number, "DEGREES", "deg", "30", 1, 120, "", false, "vertical angle of view"},
+        {"--eye", "render", numbers, "X,Y,Z", "m", "", -1e9, 1e9, "", false,
+         "camera's place; replaces azimuth, elevation and zoom"},
+        {"--target", "render", numbers, "X,Y,Z", "m", "", -1e9, 1e9, "", false, "point the camera looks at"},
+        {"--light", "render", numbers, "AZIMUTH,ELEVATION", "deg", "-50,35", -360, 360, "", false,
+         "direction the light comes from"},
+        {"--no-shadows", "render", flag, "", "", "", 0, 0, "", false, "leave shadows out"},
+        {"--samples", "render", integer, "COUNT", "", "16", 1, 256, "", false, "samples per pixel"},
+        {"--backend", "render check", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl", false,
+         "OpenGL by OSMesa, which needs no GPU, or by EGL"},
+
+        {"--format", "convert render check info validate", choice, "WHICH", "", "text", 0, 0, "text|json", false,
+         "how results are printed"},
+        {"--quiet,-q", "convert render check info validate", flag, "", "", "", 0, 0, "", false,
+         "no progress and no text; errors and json stay"},
+    };
+}
+
+}  // namespace
+
+const std::vector<OptionSpec>& option_table() {
+    static const std::vector<OptionSpec> table = make_table();
+    return table;
+}
+
+}  // namespace burin::cli

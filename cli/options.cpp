@@ -1,0 +1,319 @@
+#include "options.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace burin::cli {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::stringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+    if (!text.empty() && text.back() == separator) parts.emplace_back();
+    return parts;
+}
+
+bool belongs(const OptionSpec& spec, const std::string& command) {
+    const auto names = split(spec.commands, ' ');
+    return std::find(names.begin(), names.end(), command) != names.end();
+}
+
+std::string long_name(const OptionSpec& spec) { return split(spec.name, ',').front(); }
+
+const OptionSpec* find_option(const std::string& command, const std::string& name) {
+    for (const OptionSpec& spec : option_table())
+        if (long_name(spec) == name && belongs(spec, command)) return &spec;
+    return nullptr;
+}
+
+// The whole of `text` as one finite number.
+bool parse_number(const std::string& text, double& value) {
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && rest == end && std::isfinite(value);
+}
+
+bool parse_numbers(const std::string& text, char separator, std::vector<double>& values) {
+    values.clear();
+    for (const std::string& part : split(text, separator)) {
+        double value = 0.0;
+        if (!parse_number(part, value)) return false;
+        values.push_back(value);
+    }
+    return !values.empty();
+}
+
+std::string plain(double value) {
+    char text[32];
+    const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
+    return std::string(text, result.ptr);
+}
+
+std::string with_unit(const OptionSpec& spec, const std::string& text) {
+    return *spec.unit ? text + " " + spec.unit : text;
+}
+
+// "1e-06 to 1000 m", "one of height, depth": what a message offers and --help shows.
+std::string range_text(const OptionSpec& spec) {
+    if (spec.kind == OptionKind::choice) {
+        std::string list;
+        for (const std::string& name : split(spec.choices, '|')) list += (list.empty() ? "" : ", ") + name;
+        return "one of " + list;
+    }
+    return with_unit(spec, plain(spec.low) + " to " + plain(spec.high));
+}
+
+std::string form_text(const OptionSpec& spec) {
+    switch (spec.kind) {
+        case OptionKind::integer: return "a whole number";
+        case OptionKind::extent: return "one number or two joined by x, such as 2 or 2x1.5";
+        case OptionKind::numbers: return std::string("numbers as ") + spec.argument;
+        default: return "a number";
+    }
+}
+
+Error refuse(const std::string& message) { return {ErrorCode::invalid_argument, message}; }
+
+Status check_numbers(const OptionSpec& spec, const std::string& text) {
+    std::vector<double> values;
+    const bool extent = spec.kind == OptionKind::extent;
+    const bool list = spec.kind == OptionKind::numbers;
+    const std::size_t wanted = list ? split(spec.argument, ',').size() : 1;
+    const bool parsed = parse_numbers(text, extent ? 'x' : list ? ',' : '\0', values);
+    const bool whole = spec.kind != OptionKind::integer ||
+                       std::all_of(values.begin(), values.end(), [](double v) { return v == std::floor(v); });
+    const bool counted = extent ? values.size() <= 2 : values.size() == wanted;
+    const std::string given = long_name(spec) + " '" + text + "'";
+    if (!parsed || !whole || !counted)
+        return refuse(given + " is not " + form_text(spec) + "; " + range_text(spec) + " works");
+    for (double value : values)
+        if (value < spec.low || value > spec.high)
+            return refuse(given + " is out of its range; " + range_text(spec) + " works");
+    return Done{};
+}
+
+Status check_value(const OptionSpec& spec, const std::string& text) {
+    if (spec.kind == OptionKind::flag) return Done{};
+    if (spec.kind == OptionKind::text) {
+        if (text.empty()) return refuse(long_name(spec) + " is empty; it needs a " + spec.argument);
+        return Done{};
+    }
+    if (spec.kind == OptionKind::choice) {
+        const auto names = split(spec.choices, '|');
+        if (std::find(names.begin(), names.end(), text) != names.end()) return Done{};
+        return refuse(long_name(spec) + " '" + text + "' is not known; " + range_text(spec) + " works");
+    }
+    return check_numbers(spec, text);
+}
+
+// Length of the shortest edit between two names, for "did you mean".
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+        }
+    }
+    return row[b.size()];
+}
+
+Error unknown_option(const std::string& command, const std::string& word) {
+    const std::string name = word.substr(0, word.find('='));
+    std::string best;
+    std::size_t nearest = 3;
+    for (const OptionSpec& spec : option_table()) {
+        if (!belongs(spec, command)) continue;
+        const std::size_t distance = edit_distance(name, long_name(spec));
+        if (distance < nearest) nearest = distance, best = long_name(spec);
+    }
+    const std::string advice = best.empty() ? "`burin " + command + " --help` lists the options" : "did you mean " + best;
+    return refuse("unknown option '" + name + "'; " + advice);
+}
+
+// Value of each option as CLI11 collects it; the checks are ours, so that messages name range and unit.
+struct Collected {
+    std::map<std::string, std::vector<std::string>> texts;
+    std::map<std::string, bool> flags;
+    std::vector<std::string> files;
+};
+
+void declare_options(CLI::App& app, const std::string& command, Collected& collected) {
+    app.set_help_flag();
+    app.allow_extras();
+    for (const OptionSpec& spec : option_table()) {
+        if (!belongs(spec, command)) continue;
+        if (spec.kind == OptionKind::flag) {
+            app.add_flag(spec.name, collected.flags[long_name(spec)]);
+        } else {
+            app.add_option(spec.name, collected.texts[long_name(spec)])
+                ->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        }
+    }
+}
+
+Status take_values(const Collected& collected, Arguments& arguments) {
+    for (const auto& [name, set] : collected.flags)
+        if (set) arguments.values[name] = "yes";
+    for (const auto& [name, texts] : collected.texts) {
+        if (texts.empty()) continue;
+        const OptionSpec& spec = *find_option(arguments.command, name);
+        if (texts.size() > 1) return refuse(name + " is given " + std::to_string(texts.size()) + " times; once works");
+        if (find_option(arguments.command, texts[0]))
+            return refuse(name + " needs a " + spec.argument + ", but the option " + texts[0] + " follows");
+        if (const Status checked = check_value(spec, texts[0]); !checked) return checked.error();
+        arguments.values[name] = texts[0];
+    }
+    return Done{};
+}
+
+Status take_files(const std::vector<std::string>& words, const Command& command, Arguments& arguments) {
+    std::vector<std::string> files;
+    for (const std::string& word : words) {
+        if (word.size() > 1 && word[0] == '-' && word != "--") return unknown_option(command.name, word);
+        if (word != "--") files.push_back(word);
+    }
+    const std::string usage = "`burin " + std::string(command.name) + " --help` shows how";
+    if (files.empty()) return refuse(std::string("no ") + command.positional + " is given; " + usage);
+    if (files.size() > 1)
+        return refuse("one " + std::string(command.positional) + " is read at a time, '" + files[1] +
+                      "' is the second; " + usage);
+    arguments.file = files[0];
+    return Done{};
+}
+
+Status check_required(const Arguments& arguments) {
+    for (const OptionSpec& spec : option_table())
+        if (spec.required && belongs(spec, arguments.command) && !arguments.given(long_name(spec)))
+            return refuse(long_name(spec) + " " + spec.argument + " is missing: " + spec.help);
+    return Done{};
+}
+
+Result<Request> parse_command(std::span<const char* const> words, const Command& command, Arguments& partial) {
+    CLI::App app;
+    Collected collected;
+    declare_options(app, command.name, collected);
+    std::vector<std::string> reversed;
+    for (std::size_t i = words.size(); i-- > 0;) reversed.emplace_back(words[i]);
+    try {
+        app.parse(reversed);
+    } catch (const CLI::ParseError&) {
+        // The one thing CLI11 still objects to: an option at the end without its value.
+        return refuse(std::string("'") + words.back() + "' needs a value after it");
+    }
+    if (const Status taken = take_values(collected, partial); !taken) return taken.error();
+    if (const Status taken = take_files(app.remaining(), command, partial); !taken) return taken.error();
+    if (const Status complete = check_required(partial); !complete) return complete.error();
+    return Request{Request::Kind::run, partial};
+}
+
+// "  -o, --output FILE    text" with the help in its own column.
+std::string option_line(const OptionSpec& spec) {
+    const auto names = split(spec.name, ',');
+    std::string left = names.size() > 1 ? "  " + names[1] + ", " : "      ";
+    left += names[0];
+    if (*spec.argument) left += std::string(" ") + spec.argument;
+    left += left.size() < 30 ? std::string(30 - left.size(), ' ') : "  ";
+    std::string notes;
+    if (spec.kind != OptionKind::flag && spec.kind != OptionKind::text) notes += range_text(spec);
+    if (!spec.fallback.empty()) notes += (notes.empty() ? "" : "; ") + ("default " + with_unit(spec, spec.fallback));
+    if (spec.required) notes += notes.empty() ? "required" : "; required";
+    return left + spec.help + (notes.empty() ? "" : " [" + notes + "]") + "\n";
+}
+
+constexpr const char* kExitCodes =
+    "\nexit codes: 0 done; 1 the answer is no; 2 usage; 3 input unreadable or invalid; 4 output not written;\n"
+    "            5 not available here; 70 bug in burin\n";
+
+}  // namespace
+
+bool Arguments::given(const std::string& name) const { return values.count(name) != 0; }
+
+bool Arguments::flag(const std::string& name) const {
+    assert(find_option(command, name));
+    return given(name);
+}
+
+std::string Arguments::text(const std::string& name) const {
+    const OptionSpec* spec = find_option(command, name);
+    assert(spec);
+    const auto found = values.find(name);
+    return found != values.end() ? found->second : spec->fallback;
+}
+
+std::vector<double> Arguments::numbers(const std::string& name) const {
+    const OptionSpec* spec = find_option(command, name);
+    assert(spec);
+    std::vector<double> values_read;
+    parse_numbers(text(name), spec->kind == OptionKind::extent ? 'x' : ',', values_read);
+    return values_read;
+}
+
+double Arguments::number(const std::string& name) const {
+    const auto list = numbers(name);
+    assert(!list.empty());
+    return list.front();
+}
+
+int Arguments::integer(const std::string& name) const { return static_cast<int>(number(name)); }
+
+Result<Request> parse_arguments(std::span<const char* const> argv, std::span<const Command> commands,
+                                Arguments& partial) {
+    const std::span<const char* const> words = argv.size() > 1 ? argv.subspan(1) : argv.subspan(argv.size());
+    if (words.empty()) return refuse("no command is given; `burin --help` lists them");
+    const std::string first = words[0];
+    if (first == "--version") return Request{Request::Kind::version, {}};
+    if (first == "--help" || first == "-h") return Request{Request::Kind::help, {}};
+    std::string names;
+    for (const Command& command : commands) {
+        names += (names.empty() ? "" : ", ") + std::string(command.name);
+        if (first != command.name) continue;
+        partial.command = first;
+        for (const std::string word : words.subspan(1))
+            if (word == "--help" || word == "-h") return Request{Request::Kind::help, partial};
+        return parse_command(words.subspan(1), command, partial);
+    }
+    return refuse("unknown command '" + first + "'; " + names + " work");
+}
+
+std::string help_text(std::span<const Command> commands) {
+    std::string text =
+        "burin turns displacement maps into paths with cross-sections inside a glTF material.\n\n"
+        "usage: burin COMMAND FILE [options]\n\ncommands:\n";
+    for (const Command& command : commands) {
+        std::string left = std::string("  ") + command.name + " " + command.positional;
+        left.resize(20, ' ');
+        text += left + command.summary + "\n";
+    }
+    text += "\n`burin COMMAND --help` lists the options of a command; `burin --version` names the version.\n";
+    return text + kExitCodes;
+}
+
+std::string help_text(const Command& command) {
+    std::string text = "burin " + std::string(command.name) + ": " + command.summary + "\n\nusage: burin " +
+                       command.name + " " + command.positional;
+    for (const OptionSpec& spec : option_table())
+        if (spec.required && belongs(spec, command.name)) {
+            const auto names = split(spec.name, ',');
+            text += " " + (names.size() > 1 ? names[1] : names[0]) + " " + spec.argument;
+        }
+    text += " [options]\n\noptions:\n";
+    for (const OptionSpec& spec : option_table())
+        if (belongs(spec, command.name)) text += option_line(spec);
+    text += "  -h, --help                  this text\n";
+    return text + kExitCodes;
+}
+
+}  // namespace burin::cli

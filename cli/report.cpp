@@ -1,0 +1,170 @@
+#include "report.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "options.hpp"
+
+namespace burin::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_value(const Field& field) {
+    return std::visit(
+        [](const auto& value) -> Json {
+            // JSON has no infinity and no NaN.
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
+                if (!std::isfinite(value)) return nullptr;
+            return value;
+        },
+        field.value);
+}
+
+std::string shown(const Field& field) {
+    if (!field.text.empty()) return field.text;
+    struct Show {
+        std::string operator()(std::int64_t value) const { return std::to_string(value); }
+        std::string operator()(double value) const { return number_text(value); }
+        std::string operator()(bool value) const { return value ? "yes" : "no"; }
+        std::string operator()(const std::string& value) const { return value; }
+    };
+    return std::visit(Show{}, field.value);
+}
+
+std::string format_text(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+// "name 3, other 4" of a group's fields.
+std::string joined(const std::vector<Field>& fields) {
+    std::string text;
+    for (const Field& field : fields) {
+        if (field.label.empty()) continue;
+        text += (text.empty() ? "" : ", ") + field.label + " " + shown(field);
+    }
+    return text;
+}
+
+// Rows as columns, each as wide as its widest text; the first field's label heads its column.
+std::string table_text(const Rows& table) {
+    std::string text = table.title.empty() ? "" : table.title + "\n";
+    std::vector<std::size_t> widths;
+    for (const auto& row : table.rows)
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            widths.resize(std::max(widths.size(), i + 1));
+            widths[i] = std::max(widths[i], shown(row[i]).size());
+        }
+    for (const auto& row : table.rows) {
+        std::string line = " ";
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (row[i].label.empty()) continue;
+            std::string cell = shown(row[i]);
+            cell.resize(std::max(cell.size(), i + 1 < row.size() ? widths[i] : 0), ' ');
+            line += " " + cell;
+        }
+        text += line + "\n";
+    }
+    return text;
+}
+
+std::string line_text(const std::string& label, const std::string& value) {
+    std::string left = label;
+    left.resize(std::max<std::size_t>(left.size() + 1, 18), ' ');
+    return left + value + "\n";
+}
+
+}  // namespace
+
+void Report::add_group(std::string key, std::string label, std::vector<Field> fields) {
+    groups_.push_back({fields_.size(), std::move(key), std::move(label), std::move(fields)});
+}
+
+std::string Report::as_text() const {
+    std::string text;
+    std::size_t next_group = 0;
+    for (std::size_t i = 0; i <= fields_.size(); ++i) {
+        for (; next_group < groups_.size() && groups_[next_group].before == i; ++next_group)
+            if (!groups_[next_group].label.empty())
+                text += line_text(groups_[next_group].label, joined(groups_[next_group].fields));
+        if (i < fields_.size() && !fields_[i].label.empty()) text += line_text(fields_[i].label, shown(fields_[i]));
+    }
+    for (const Rows& rows : rows_)
+        if (!rows.rows.empty()) text += table_text(rows);
+    return text;
+}
+
+std::string Report::as_json() const {
+    Json json = Json::object();
+    const auto object = [](const std::vector<Field>& fields) {
+        Json part = Json::object();
+        for (const Field& field : fields) part[field.key] = json_value(field);
+        return part;
+    };
+    json = object(fields_);
+    for (const Group& group : groups_) json[group.key] = object(group.fields);
+    for (const Rows& rows : rows_) {
+        json[rows.key] = Json::array();
+        for (const auto& row : rows.rows) json[rows.key].push_back(object(row));
+    }
+    // Names of files need not be UTF-8; what is not is replaced instead of thrown at.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void Report::print(const Arguments& arguments) const {
+    const bool json = arguments.text("--format") == "json";
+    if (!json && arguments.flag("--quiet")) return;
+    const std::string text = json ? as_json() : as_text();
+    std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+ProgressLine::ProgressLine(const Arguments& arguments)
+    : shown_(isatty(STDERR_FILENO) != 0 && !arguments.flag("--quiet")) {}
+
+ProgressLine::~ProgressLine() {
+    if (shown_ && !stage_.empty()) std::fputc('\n', stderr);
+}
+
+void ProgressLine::update(std::string_view stage, double fraction) {
+    if (!shown_) return;
+    if (stage != stage_) {
+        finish();
+        stage_ = stage;
+        percent_ = -1;
+        begun_ = std::chrono::steady_clock::now();
+    }
+    const int percent = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * 100.0);
+    if (percent == percent_) return;
+    percent_ = percent;
+    std::fprintf(stderr, "\r  %-12s %3d %%", stage_.c_str(), percent);
+}
+
+void ProgressLine::finish() {
+    if (!shown_ || stage_.empty()) return;
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun_;
+    std::fprintf(stderr, "\r  %-12s 100 %%  %.2f s\n", stage_.c_str(), seconds.count());
+    stage_.clear();
+}
+
+std::string number_text(double value) { return format_text("%.4g", value); }
+
+std::string bytes_text(std::uint64_t bytes) {
+    if (bytes < 10240) return std::to_string(bytes) + " bytes";
+    return format_text("%.1f KiB", static_cast<double>(bytes) / 1024.0);
+}
+
+std::string percent_text(double share, int digits) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f %%", digits, share * 100.0);
+    return text;
+}
+
+}  // namespace burin::cli

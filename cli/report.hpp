@@ -1,0 +1,78 @@
+// What a command says: progress on stderr, results on stdout as text or JSON, from the same record.
+//
+// Text is for people: labels, units, aligned columns. JSON carries every value under its key, in SI units or as a
+// number of bytes, and nothing else goes to stdout then.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace burin::cli {
+
+class Arguments;
+
+struct Field {
+    std::string key;    // JSON name
+    std::string label;  // text; empty: JSON only
+    std::variant<std::int64_t, double, bool, std::string> value;
+    std::string text;  // how text shows the value; empty: as it is
+};
+
+// A list of like things: one row each.
+struct Rows {
+    std::string key;    // JSON name of the array
+    std::string title;  // text above the rows
+    std::vector<std::vector<Field>> rows;
+};
+
+class Report {
+  public:
+    void add(Field field) { fields_.push_back(std::move(field)); }
+    // A group is an object in JSON and one line in text: label, then its fields.
+    void add_group(std::string key, std::string label, std::vector<Field> fields);
+    void add_rows(Rows rows) { rows_.push_back(std::move(rows)); }
+
+    // Prints to stdout as --format asks; nothing when --quiet is given and the format is text.
+    void print(const Arguments& arguments) const;
+
+  private:
+    struct Group {
+        std::size_t before;  // number of fields that come first
+        std::string key, label;
+        std::vector<Field> fields;
+    };
+    std::string as_text() const;
+    std::string as_json() const;
+
+    std::vector<Field> fields_;
+    std::vector<Group> groups_;
+    std::vector<Rows> rows_;
+};
+
+// One line per stage on stderr: name, share done, seconds. Silent unless stderr is a terminal, or when --quiet.
+class ProgressLine {
+  public:
+    explicit ProgressLine(const Arguments& arguments);
+    // Ends the line of a stage that was not finished, so that an error starts on a line of its own.
+    ~ProgressLine();
+    void update(std::string_view stage, double fraction);
+    void finish();
+
+  private:
+    bool shown_ = false;
+    std::string stage_;
+    int percent_ = -1;
+    std::chrono::steady_clock::time_point begun_;
+};
+
+// Text for people: 4 significant digits; bytes with KiB from 10 KiB on; a share as per cent.
+std::string number_text(double value);
+std::string bytes_text(std::uint64_t bytes);
+std::string percent_text(double share, int digits = 2);
+
+}  // namespace burin::cli
