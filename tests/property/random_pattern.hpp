@@ -261,7 +261,7 @@ class PatternMaker {
         if (!random_.chance(0.6)) return;
         const double rise =
             random_.chance(0.5) ? random_.between(0.0003, 0.0008) : -random_.between(0.0005, 0.0015);
-        place_step_loop(centre, 0.35 * radius, level, level + rise);
+        place_step_loop(centre, 0.25 * radius, level, level + rise);
     }
 
     void place_step_loop(Vec2 centre, double radius, double outside, double inside) {
