@@ -17,13 +17,15 @@ bool uses_clip_line(const EndCode& end) {
 void check_end(const EndCode& end, const char* name, const std::string& place, Reporter& reporter) {
     const std::uint32_t shapes = end.priority == BURIN_PRIORITY_NONE ? 1 : 3;
     if (end.shape >= shapes) {
-        reporter.report(4005, std::string(name) + " has priority " + text(end.priority) + " with shape " +
-                                  text(end.shape) + ", less than " + text(shapes) + " is needed",
+        reporter.report(4005,
+                        std::string(name) + " has priority " + text(end.priority) + " with shape " +
+                            text(end.shape) + ", less than " + text(shapes) + " is needed",
                         place);
     } else if (!uses_clip_line(end) && end.clip_angle != 0) {
-        reporter.report(4006, std::string(name) + " has no clip line but clip angle " + text(end.clip_angle) +
-                                  ", 0 is needed",
-                        place);
+        reporter.report(
+            4006,
+            std::string(name) + " has no clip line but clip angle " + text(end.clip_angle) + ", 0 is needed",
+            place);
     }
 }
 
@@ -35,19 +37,21 @@ void check_extent(const ElementCode& e, const std::string& place, Reporter& repo
     };
     const std::uint32_t longest = std::max(span(&PointCode::u), span(&PointCode::v));
     if (longest > static_cast<std::uint32_t>(BURIN_COORDINATE_STEPS)) {
-        reporter.report(4009, "element spans " + number_text(longest / BURIN_COORDINATE_STEPS) +
-                                  " tiles, at most 1 where the pattern repeats",
+        reporter.report(4009,
+                        "element spans " + number_text(longest / BURIN_COORDINATE_STEPS) +
+                            " tiles, at most 1 where the pattern repeats",
                         place);
     }
 }
 
-// The right level is stored, so it must be where the profile's last point ends; the slack is what quantization of
-// levels, heights and scale can add up to.
+// The right level is stored, so it must be where the profile's last point ends; the slack is what
+// quantization of levels, heights and scale can add up to.
 void check_step(const ElementCode& e, const StyleCode& style, std::int32_t last_h, const std::string& place,
                 Reporter& reporter) {
     if (e.height0 != e.height1) {
-        reporter.report(4010, "element of a step has height scales " + number_text(decode_scale(e.height0)) + " and " +
-                                  number_text(decode_scale(e.height1)) + ", equal ones are needed",
+        reporter.report(4010,
+                        "element of a step has height scales " + number_text(decode_scale(e.height0)) +
+                            " and " + number_text(decode_scale(e.height1)) + ", equal ones are needed",
                         place);
         return;
     }
@@ -55,15 +59,20 @@ void check_step(const ElementCode& e, const StyleCode& style, std::int32_t last_
     const double expected = decode_unorm16(style.level_left) + scale * h;
     const double slack = 3.0 / 65535.0 + scale / 32767.0 + std::abs(h) / BURIN_SCALE_STEPS;
     if (std::abs(expected - decode_unorm16(style.level_right)) > slack) {
-        reporter.report(4011, "the profile ends at " + number_text(expected) + " of the height range, the right level is " +
-                                  number_text(decode_unorm16(style.level_right)),
+        reporter.report(4011,
+                        "the profile ends at " + number_text(expected) +
+                            " of the height range, the right level is " +
+                            number_text(decode_unorm16(style.level_right)),
                         place);
     }
 }
 
-std::int32_t last_height(const PackedTextures& textures, const StyleCode& style, std::uint32_t profile_texels) {
-    const std::uint32_t last = style.point_count - 1, at = style.profile_texel + last / BURIN_POINTS_PER_TEXEL;
-    if (style.point_count < 2 || style.point_count > BURIN_MAX_PROFILE_POINTS || at >= profile_texels) return 0;
+std::int32_t last_height(const PackedTextures& textures, const StyleCode& style,
+                         std::uint32_t profile_texels) {
+    const std::uint32_t last = style.point_count - 1,
+                        at = style.profile_texel + last / BURIN_POINTS_PER_TEXEL;
+    if (style.point_count < 2 || style.point_count > BURIN_MAX_PROFILE_POINTS || at >= profile_texels)
+        return 0;
     const Texel texel = data_texel(textures, textures.sections.profiles_begin() + at);
     return unpack_profile_point(texel[last % BURIN_POINTS_PER_TEXEL]).h;
 }
@@ -73,11 +82,13 @@ void check_element(const PackedTextures& textures, const PathDetail& detail, con
     if (e.unused != 0) reporter.report(4002, "bits without meaning are set, all must be 0", place);
     if (e.quadratic && !e.has_texel_b) reporter.report(4003, "a quadratic has no texel B", place);
     if (!e.quadratic && e.has_texel_b && !(e.p1 == PointCode{})) {
-        reporter.report(4004, "a line has p1 codes " + text(e.p1.u) + ", " + text(e.p1.v) + ", 0 is needed", place);
+        reporter.report(4004, "a line has p1 codes " + text(e.p1.u) + ", " + text(e.p1.v) + ", 0 is needed",
+                        place);
     }
     check_end(e.start, "the start", place, reporter);
     check_end(e.end, "the end", place, reporter);
-    if (e.p0 == e.p2) reporter.report(4008, "both ends have codes " + text(e.p0.u) + ", " + text(e.p0.v), place);
+    if (e.p0 == e.p2)
+        reporter.report(4008, "both ends have codes " + text(e.p0.u) + ", " + text(e.p0.v), place);
     if (detail.repeat) check_extent(e, place, reporter);
     const StyleCode* style = data.style_of(e);
     if (style == nullptr) {
@@ -87,7 +98,8 @@ void check_element(const PackedTextures& textures, const PathDetail& detail, con
     }
 }
 
-void check_elements(const PackedTextures& textures, const PathDetail& detail, DecodedData& data, Reporter& reporter) {
+void check_elements(const PackedTextures& textures, const PathDetail& detail, DecodedData& data,
+                    Reporter& reporter) {
     const std::uint32_t count = detail.sections.element_texels;
     data.element_at.assign(count, DecodedData::kNone);
     for (std::uint32_t at = 0; at < count;) {
@@ -95,7 +107,8 @@ void check_elements(const PackedTextures& textures, const PathDetail& detail, De
         const Texel a = data_texel(textures, at);
         const bool two = element_has_texel_b(a);
         if (two && at + 1 == count) {
-            reporter.report(4001, "texel B would lie behind the section of " + text(count) + " texels", place);
+            reporter.report(4001, "texel B would lie behind the section of " + text(count) + " texels",
+                            place);
             return;
         }
         const ElementCode element = unpack_element(a, two ? data_texel(textures, at + 1) : Texel{});
@@ -112,22 +125,26 @@ void check_points(const std::vector<ProfilePointCode>& points, bool step, const 
     bool at_zero = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].b == -32768 || points[i].h == -32768) {
-            reporter.report(4030, "point " + std::to_string(i) + " has code -32768, range [-32767, 32767]", place);
+            reporter.report(4030, "point " + std::to_string(i) + " has code -32768, range [-32767, 32767]",
+                            place);
         }
         if (i > 0 && points[i] == points[i - 1]) {
-            reporter.report(4032, "points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are equal", place);
+            reporter.report(
+                4032, "points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are equal", place);
         }
         at_zero = at_zero || points[i].b == 0;
     }
     if (points.front().b >= points.back().b) {
-        reporter.report(4031, "the first point's b code " + std::to_string(points.front().b) +
-                                  " is not less than the last one's " + std::to_string(points.back().b),
+        reporter.report(4031,
+                        "the first point's b code " + std::to_string(points.front().b) +
+                            " is not less than the last one's " + std::to_string(points.back().b),
                         place);
     }
     if (step && !at_zero) reporter.report(4033, "no point of a step profile lies at b = 0", place);
     if (points.front().h != 0 || (!step && points.back().h != 0)) {
-        reporter.report(4034, "the profile ends off the ground, h codes " + std::to_string(points.front().h) + " and " +
-                                  std::to_string(points.back().h),
+        reporter.report(4034,
+                        "the profile ends off the ground, h codes " + std::to_string(points.front().h) +
+                            " and " + std::to_string(points.back().h),
                         place);
     }
 }
@@ -149,17 +166,20 @@ void check_profile(const PackedTextures& textures, const StyleCode& style, const
     check_points(points, style.step, place, reporter);
 }
 
-void check_style(const PackedTextures& textures, const Sections& sections, const StyleCode& s, const std::string& place,
-                 Reporter& reporter) {
+void check_style(const PackedTextures& textures, const Sections& sections, const StyleCode& s,
+                 const std::string& place, Reporter& reporter) {
     if (!(s.reach > 0.0f) || !std::isfinite(s.reach)) {
-        reporter.report(4023, "reach is " + number_text(s.reach) + ", must be finite and greater than 0", place);
+        reporter.report(4023, "reach is " + number_text(s.reach) + ", must be finite and greater than 0",
+                        place);
     }
     if (s.material >= sections.material_texels) {
-        reporter.report(4022, "material " + text(s.material) + " of " + text(sections.material_texels), place);
+        reporter.report(4022, "material " + text(s.material) + " of " + text(sections.material_texels),
+                        place);
     }
     if (s.step != (s.level_left != s.level_right)) {
-        reporter.report(4025, std::string("step flag is ") + (s.step ? "set" : "not set") + ", level codes are " +
-                                  text(s.level_left) + " and " + text(s.level_right),
+        reporter.report(4025,
+                        std::string("step flag is ") + (s.step ? "set" : "not set") + ", level codes are " +
+                            text(s.level_left) + " and " + text(s.level_right),
                         place);
     }
     if (s.point_count < 2 || s.point_count > BURIN_MAX_PROFILE_POINTS) {
@@ -168,14 +188,15 @@ void check_style(const PackedTextures& textures, const Sections& sections, const
     }
     const std::uint32_t last = s.profile_texel + (s.point_count - 1) / BURIN_POINTS_PER_TEXEL;
     if (last >= sections.profile_texels) {
-        reporter.report(4020, "profile reaches texel " + text(last) + " of a section of " +
-                                  text(sections.profile_texels),
-                        place);
+        reporter.report(
+            4020, "profile reaches texel " + text(last) + " of a section of " + text(sections.profile_texels),
+            place);
         return;
     }
     if (s.internal_mask >> (s.point_count - 1) != 0) {
-        reporter.report(4024, "internal bits " + text(s.internal_mask) + " go beyond the " + text(s.point_count - 1) +
-                                  " facets",
+        reporter.report(4024,
+                        "internal bits " + text(s.internal_mask) + " go beyond the " +
+                            text(s.point_count - 1) + " facets",
                         place);
     }
     check_profile(textures, s, place, reporter);
@@ -186,7 +207,8 @@ void check_materials(const PackedTextures& textures, Reporter& reporter) {
         const std::string place = "material " + text(i);
         const Texel texel = data_texel(textures, textures.sections.materials_begin() + i);
         const MaterialCode material = unpack_material(texel);
-        if (i == 0 && material.overrides) reporter.report(4040, "material 0 overrides the glTF material", place);
+        if (i == 0 && material.overrides)
+            reporter.report(4040, "material 0 overrides the glTF material", place);
         const bool values = texel[0] != 0 || material.metallic != 0 || material.roughness != 0;
         if (material.unused != 0 || (!material.overrides && values)) {
             reporter.report(4041, "bits without meaning are set, all must be 0", place);
@@ -196,8 +218,8 @@ void check_materials(const PackedTextures& textures, Reporter& reporter) {
 
 void check_tail(const PackedTextures& textures, Reporter& reporter) {
     const std::size_t begin = std::size_t{4} * textures.sections.end();
-    const auto first = std::find_if(textures.data.begin() + static_cast<std::ptrdiff_t>(begin), textures.data.end(),
-                                    [](std::uint32_t word) { return word != 0; });
+    const auto first = std::find_if(textures.data.begin() + static_cast<std::ptrdiff_t>(begin),
+                                    textures.data.end(), [](std::uint32_t word) { return word != 0; });
     if (first != textures.data.end()) {
         reporter.report(4053, "a word behind the last section is not 0",
                         "texel " + std::to_string((first - textures.data.begin()) / 4));

@@ -16,8 +16,9 @@ struct GridView {
     int cols, rows;
 
     CellCode at(int i, int j) const {
-        return unpack_cell(cell_texel(textures, static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(cols) +
-                                                    static_cast<std::uint32_t>(i)));
+        return unpack_cell(
+            cell_texel(textures, static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(cols) +
+                                     static_cast<std::uint32_t>(i)));
     }
     std::uint32_t references() const { return textures.sections.list_texels * BURIN_REFS_PER_TEXEL; }
     bool list_inside(const CellCode& c) const { return c.first_reference + c.count <= references(); }
@@ -25,25 +26,30 @@ struct GridView {
 
 void check_cell(const GridView& grid, const CellCode& c, const std::string& place, Reporter& reporter) {
     if (!grid.list_inside(c)) {
-        reporter.report(3001, "list ends at reference " + text(c.first_reference + c.count) + " of " +
-                                  text(grid.references()),
-                        place);
+        reporter.report(
+            3001,
+            "list ends at reference " + text(c.first_reference + c.count) + " of " + text(grid.references()),
+            place);
     }
     if (c.count == 0 && c.first_reference != 0) {
-        reporter.report(3002, "lists nothing but its first reference is " + text(c.first_reference) + ", 0 is needed",
-                        place);
+        reporter.report(
+            3002, "lists nothing but its first reference is " + text(c.first_reference) + ", 0 is needed",
+            place);
     }
     if (c.count == 0 && (c.flags & BURIN_CELL_FLAG_STEP) != 0) {
         reporter.report(3003, "lists nothing but has flag STEP", place);
     }
     if (c.count != 0 && c.skip != 0) {
-        reporter.report(3004, "lists " + text(c.count) + " elements but has skip " + text(c.skip) + ", 0 is needed",
+        reporter.report(3004,
+                        "lists " + text(c.count) + " elements but has skip " + text(c.skip) + ", 0 is needed",
                         place);
     }
     // 65535 = 257 * 255: both scales compared without rounding.
     if (c.lowest * 257 > c.level || c.level > c.highest * 257) {
-        reporter.report(3006, "level " + number_text(decode_unorm16(c.level)) + " lies outside of its bounds " +
-                                  number_text(decode_unorm8(c.lowest)) + " to " + number_text(decode_unorm8(c.highest)),
+        reporter.report(3006,
+                        "level " + number_text(decode_unorm16(c.level)) + " lies outside of its bounds " +
+                            number_text(decode_unorm8(c.lowest)) + " to " +
+                            number_text(decode_unorm8(c.highest)),
                         place);
     }
 }
@@ -55,7 +61,8 @@ bool joined(const ElementCode& a, const ElementCode& b) {
            a.end.shape == BURIN_END_CLIP && b.start.shape == BURIN_END_CLIP;
 }
 
-// One smooth chain: each element of the list joins the next one, but for one gap where a closed path begins anew.
+// One smooth chain: each element of the list joins the next one, but for one gap where a closed path begins
+// anew.
 bool is_chain(const std::vector<const ElementCode*>& list) {
     std::size_t gaps = 0;
     for (std::size_t i = 0; i + 1 < list.size(); ++i) gaps += joined(*list[i], *list[i + 1]) ? 0 : 1;
@@ -77,8 +84,8 @@ void check_flags(const CellCode& c, const std::vector<const ElementCode*>& list,
 }
 
 // The elements of one cell's list; reports references that lead nowhere or are out of order.
-std::vector<const ElementCode*> check_list(const GridView& grid, const CellCode& c, const DecodedData& data, bool report,
-                                           const std::string& place, Reporter& reporter) {
+std::vector<const ElementCode*> check_list(const GridView& grid, const CellCode& c, const DecodedData& data,
+                                           bool report, const std::string& place, Reporter& reporter) {
     std::vector<const ElementCode*> list;
     std::uint32_t previous = 0;
     for (std::uint32_t k = 0; k < c.count; ++k) {
@@ -87,12 +94,13 @@ std::vector<const ElementCode*> check_list(const GridView& grid, const CellCode&
             reference < data.element_at.size() && data.element_at[reference] != DecodedData::kNone;
         if (is_start) list.push_back(&data.elements[data.element_at[reference]]);
         if (!is_start && report) {
-            reporter.report(4050, "reference " + text(reference) + " is not the first texel of an element", place);
+            reporter.report(4050, "reference " + text(reference) + " is not the first texel of an element",
+                            place);
         }
         if (k > 0 && reference <= previous && report) {
-            reporter.report(4051, "reference " + text(reference) + " follows " + text(previous) +
-                                      ", they must grow",
-                            place);
+            reporter.report(
+                4051, "reference " + text(reference) + " follows " + text(previous) + ", they must grow",
+                place);
         }
         previous = reference;
     }
@@ -102,13 +110,14 @@ std::vector<const ElementCode*> check_list(const GridView& grid, const CellCode&
 void check_unlisted(const GridView& grid, const std::vector<bool>& covered, Reporter& reporter) {
     for (std::uint32_t k = 0; k < grid.references(); ++k) {
         if (!covered[k] && list_reference(grid.textures, k) != 0) {
-            reporter.report(4052, "reference " + text(k) + " belongs to no cell's list and is not 0", "lists");
+            reporter.report(4052, "reference " + text(k) + " belongs to no cell's list and is not 0",
+                            "lists");
         }
     }
 }
 
-// Distance to the nearest listing cell in cells (Chebyshev), capped at 17: two passes over the map with a frame of 16
-// cells around, which repeats it, or counts as listing where the map ends.
+// Distance to the nearest listing cell in cells (Chebyshev), capped at 17: two passes over the map with a
+// frame of 16 cells around, which repeats it, or counts as listing where the map ends.
 std::vector<std::uint8_t> listing_distance(const GridView& grid, bool repeat) {
     constexpr int kFrame = 16;
     constexpr std::uint8_t kFar = 17;
@@ -122,7 +131,8 @@ std::vector<std::uint8_t> listing_distance(const GridView& grid, bool repeat) {
         for (int x = 0; x < width; ++x) {
             const int i = x - kFrame, j = y - kFrame;
             const bool inside = i >= 0 && j >= 0 && i < grid.cols && j < grid.rows;
-            const bool empty = (inside || repeat) && grid.at(wrapped(i, grid.cols), wrapped(j, grid.rows)).count == 0;
+            const bool empty =
+                (inside || repeat) && grid.at(wrapped(i, grid.cols), wrapped(j, grid.rows)).count == 0;
             at(x, y) = empty ? kFar : 0;
         }
     }
@@ -131,10 +141,12 @@ std::vector<std::uint8_t> listing_distance(const GridView& grid, bool repeat) {
         at(x, y) = std::min<std::uint8_t>(at(x, y), static_cast<std::uint8_t>(at(x + dx, y + dy) + 1));
     };
     for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
+        for (int x = 0; x < width; ++x)
+            relax(x, y, -1, 0), relax(x, y, -1, -1), relax(x, y, 0, -1), relax(x, y, 1, -1);
     }
     for (int y = height - 1; y >= 0; --y) {
-        for (int x = width - 1; x >= 0; --x) relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
+        for (int x = width - 1; x >= 0; --x)
+            relax(x, y, 1, 0), relax(x, y, 1, 1), relax(x, y, 0, 1), relax(x, y, -1, 1);
     }
     std::vector<std::uint8_t> inner;
     inner.reserve(static_cast<std::size_t>(grid.cols) * static_cast<std::size_t>(grid.rows));
@@ -150,10 +162,13 @@ void check_skips(const GridView& grid, bool repeat, Reporter& reporter) {
         for (int i = 0; i < grid.cols; ++i) {
             const CellCode c = grid.at(i, j);
             const std::uint32_t nearest =
-                distance[static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.cols) + static_cast<std::size_t>(i)];
+                distance[static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.cols) +
+                         static_cast<std::size_t>(i)];
             if (c.count == 0 && c.skip >= nearest) {
-                reporter.report(3005, "skip is " + text(c.skip) + ", a cell that lists elements or the border of a clamped map is " +
-                                          text(nearest) + " cells away",
+                reporter.report(3005,
+                                "skip is " + text(c.skip) +
+                                    ", a cell that lists elements or the border of a clamped map is " +
+                                    text(nearest) + " cells away",
                                 cell_place(i, j));
             }
         }
@@ -165,8 +180,9 @@ void check_levels(const GridView& grid, bool repeat, Reporter& reporter) {
     const auto compare = [&grid, &reporter](int i, int j, int k, int l) {
         const CellCode a = grid.at(i, j), b = grid.at(k, l);
         if (a.count != 0 || b.count != 0 || a.level == b.level) return;
-        reporter.report(3009, "lists nothing and has level code " + text(a.level) + ", its empty neighbour " +
-                                  cell_place(k, l) + " has " + text(b.level),
+        reporter.report(3009,
+                        "lists nothing and has level code " + text(a.level) + ", its empty neighbour " +
+                            cell_place(k, l) + " has " + text(b.level),
                         cell_place(i, j));
     };
     for (int j = 0; j < grid.rows; ++j) {
@@ -179,7 +195,8 @@ void check_levels(const GridView& grid, bool repeat, Reporter& reporter) {
 
 }  // namespace
 
-void check_grid(const PackedTextures& textures, const PathDetail& detail, const DecodedData& data, Reporter& reporter) {
+void check_grid(const PackedTextures& textures, const PathDetail& detail, const DecodedData& data,
+                Reporter& reporter) {
     const GridView grid{textures, textures.grid_width, textures.grid_height};
     std::vector<bool> covered(grid.references(), false);
     std::unordered_set<std::uint32_t> lists;  // first reference and count in one word

@@ -1,5 +1,6 @@
-// 3010: the ground rule finds a region's level by the step path lines that it crosses, so every cell that such a line
-// passes through must list it. Sampled along each line; a cell is only judged where the sample lies well inside it.
+// 3010: the ground rule finds a region's level by the step path lines that it crosses, so every cell that
+// such a line passes through must list it. Sampled along each line; a cell is only judged where the sample
+// lies well inside it.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +10,7 @@ namespace burin {
 namespace {
 
 constexpr double kSamplesPerCell = 8.0;
-constexpr double kInset = 0.05;              // of a cell: nearer to its border a line need not count as inside
+constexpr double kInset = 0.05;  // of a cell: nearer to its border a line need not count as inside
 constexpr std::size_t kEnoughFindings = 64;  // keeps a hostile file from costing elements times cells
 
 struct Place {
@@ -57,13 +58,16 @@ std::size_t check_line(const PackedTextures& textures, bool repeat, const Elemen
         const int i = cell_along(p.u, cols, repeat), j = cell_along(p.v, rows, repeat);
         if (i < 0 || j < 0 || (i == last_i && j == last_j)) continue;
         last_i = i, last_j = j;
-        const CellCode c = unpack_cell(cell_texel(
-            textures, static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(cols) + static_cast<std::uint32_t>(i)));
+        const CellCode c = unpack_cell(
+            cell_texel(textures, static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(cols) +
+                                     static_cast<std::uint32_t>(i)));
         const bool listed = lists_element(textures, c, texel);
         if (listed && (c.flags & BURIN_CELL_FLAG_STEP) != 0) continue;
         ++findings;
-        reporter.report(3010, std::string("the path line of the step element at texel ") + std::to_string(texel) +
-                                  " passes through the cell, which " + (listed ? "lacks flag STEP" : "does not list it"),
+        reporter.report(3010,
+                        std::string("the path line of the step element at texel ") + std::to_string(texel) +
+                            " passes through the cell, which " +
+                            (listed ? "lacks flag STEP" : "does not list it"),
                         "cell (" + std::to_string(i) + "," + std::to_string(j) + ")");
     }
     return findings;
@@ -71,7 +75,8 @@ std::size_t check_line(const PackedTextures& textures, bool repeat, const Elemen
 
 }  // namespace
 
-void check_steps(const PackedTextures& textures, const PathDetail& detail, const DecodedData& data, Reporter& reporter) {
+void check_steps(const PackedTextures& textures, const PathDetail& detail, const DecodedData& data,
+                 Reporter& reporter) {
     std::size_t findings = 0;
     for (std::size_t n = 0; n < data.elements.size() && findings < kEnoughFindings; ++n) {
         const StyleCode* style = data.style_of(data.elements[n]);

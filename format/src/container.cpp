@@ -34,18 +34,21 @@ struct Chunk {
 std::optional<Chunk> read_chunk(Bytes bytes, std::size_t& at, Reporter& reporter) {
     const std::string place = "byte " + std::to_string(at);
     if (bytes.size() - at < 8) {
-        reporter.report(1004, "a chunk header needs 8 bytes, " + std::to_string(bytes.size() - at) + " are left", place);
+        reporter.report(
+            1004, "a chunk header needs 8 bytes, " + std::to_string(bytes.size() - at) + " are left", place);
         return std::nullopt;
     }
     const std::uint32_t size = word_at(bytes, at);
     if (size > bytes.size() - at - 8) {
-        reporter.report(1004, "chunk of " + std::to_string(size) + " bytes, " + std::to_string(bytes.size() - at - 8) +
-                                  " are left",
+        reporter.report(1004,
+                        "chunk of " + std::to_string(size) + " bytes, " +
+                            std::to_string(bytes.size() - at - 8) + " are left",
                         place);
         return std::nullopt;
     }
     if (size % 4 != 0) {
-        reporter.report(1005, "chunk of " + std::to_string(size) + " bytes, a multiple of 4 is needed", place);
+        reporter.report(1005, "chunk of " + std::to_string(size) + " bytes, a multiple of 4 is needed",
+                        place);
     }
     const Chunk chunk{word_at(bytes, at + 4), bytes.subspan(at + 8, size)};
     at += 8 + std::size_t{size};
@@ -84,7 +87,8 @@ std::optional<Chunks> split_glb(Bytes bytes, Reporter& reporter) {
 void check_asset(const json& document, Reporter& reporter) {
     const auto asset = document.find("asset");
     const bool ok = asset != document.end() && asset->is_object() && asset->contains("version") &&
-                    (*asset)["version"].is_string() && (*asset)["version"].get_ref<const std::string&>().rfind("2.", 0) == 0;
+                    (*asset)["version"].is_string() &&
+                    (*asset)["version"].get_ref<const std::string&>().rfind("2.", 0) == 0;
     if (!ok) reporter.report(1008, "asset.version is not 2.x", "/asset/version");
 }
 
@@ -129,7 +133,8 @@ const json* find_array(const json& object, const char* name, Reporter& reporter)
 }
 
 std::optional<std::vector<std::uint8_t>> decode_base64(std::string_view text) {
-    static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    static constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::array<std::uint8_t, 256> value{};
     value.fill(255);
     for (std::size_t i = 0; i < kDigits.size(); ++i) {
@@ -194,8 +199,9 @@ bool Buffers::load(std::size_t index, const json& json, Buffer& buffer) {
         return false;
     }
     if (buffer.bytes.size() < *length) {
-        reporter_.report(1011, "byteLength is " + std::to_string(*length) + ", the buffer has " +
-                                   std::to_string(buffer.bytes.size()) + " bytes",
+        reporter_.report(1011,
+                         "byteLength is " + std::to_string(*length) + ", the buffer has " +
+                             std::to_string(buffer.bytes.size()) + " bytes",
                          place + "/byteLength");
         return false;
     }
@@ -218,7 +224,8 @@ std::optional<Bytes> Buffers::view(int index, std::uint64_t needed, const std::s
     const json* views = find_array(container_.document, "bufferViews", reporter_);
     const std::size_t count = views != nullptr ? views->size() : 0;
     if (index < 0 || static_cast<std::size_t>(index) >= count) {
-        reporter_.report(2016, "bufferView is " + std::to_string(index) + " of " + std::to_string(count), place);
+        reporter_.report(2016, "bufferView is " + std::to_string(index) + " of " + std::to_string(count),
+                         place);
         return std::nullopt;
     }
     const json& view = (*views)[static_cast<std::size_t>(index)];
@@ -231,26 +238,30 @@ std::optional<Bytes> Buffers::view(int index, std::uint64_t needed, const std::s
     const std::optional<std::uint64_t> offset = view.is_object() ? number("byteOffset", 0) : std::nullopt;
     const std::optional<std::uint64_t> length = view.is_object() ? number("byteLength", 0) : std::nullopt;
     if (!which || !offset || !length || buffers == nullptr || *which >= buffers->size()) {
-        reporter_.report(1010, "the buffer view is not an object with a valid buffer, byteOffset and byteLength", at);
+        reporter_.report(
+            1010, "the buffer view is not an object with a valid buffer, byteOffset and byteLength", at);
         return std::nullopt;
     }
     if (view.contains("byteStride") || view.contains("target")) {
         reporter_.report(2019, "byteStride and target have no meaning for a texture's buffer view", at);
     }
     if (*offset % 4 != 0) {
-        reporter_.report(2018, "byteOffset is " + std::to_string(*offset) + ", a multiple of 4 is needed", at);
+        reporter_.report(2018, "byteOffset is " + std::to_string(*offset) + ", a multiple of 4 is needed",
+                         at);
     }
     const Buffer& held = buffer(static_cast<std::size_t>(*which));
     if (!held.ok) return std::nullopt;
     if (*offset > held.bytes.size() || *length > held.bytes.size() - *offset) {
-        reporter_.report(2020, "the view ends at byte " + std::to_string(*offset) + " + " + std::to_string(*length) +
-                                   " of a buffer of " + std::to_string(held.bytes.size()),
+        reporter_.report(2020,
+                         "the view ends at byte " + std::to_string(*offset) + " + " +
+                             std::to_string(*length) + " of a buffer of " + std::to_string(held.bytes.size()),
                          at);
         return std::nullopt;
     }
     if (*length != needed) {
-        reporter_.report(2017, "byteLength is " + std::to_string(*length) + ", the texture takes " +
-                                   std::to_string(needed) + " bytes",
+        reporter_.report(2017,
+                         "byteLength is " + std::to_string(*length) + ", the texture takes " +
+                             std::to_string(needed) + " bytes",
                          at);
         return std::nullopt;
     }

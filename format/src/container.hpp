@@ -1,4 +1,5 @@
-// The file around the textures: GLB chunks, glTF JSON, buffers and buffer views, each checked before it is used.
+// The file around the textures: GLB chunks, glTF JSON, buffers and buffer views, each checked before it is
+// used.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 namespace burin {
 
 struct Container {
-    nlohmann::json document;                                // an object
+    nlohmann::json document;                                 // an object
     std::optional<std::span<const std::uint8_t>> bin_chunk;  // of a GLB
 };
 
@@ -28,9 +29,10 @@ class Buffers {
     Buffers(const Container& container, const ValidateOptions& options, Reporter& reporter)
         : container_(container), options_(options), reporter_(reporter) {}
 
-    // Bytes of the view that holds a texture of `needed` bytes; reports 1009, 1010, 2016-2020 and gives nothing when it
-    // cannot be read. `place` names the property that refers to the view.
-    std::optional<std::span<const std::uint8_t>> view(int index, std::uint64_t needed, const std::string& place);
+    // Bytes of the view that holds a texture of `needed` bytes; reports 1009, 1010, 2016-2020 and gives
+    // nothing when it cannot be read. `place` names the property that refers to the view.
+    std::optional<std::span<const std::uint8_t>> view(int index, std::uint64_t needed,
+                                                      const std::string& place);
 
   private:
     struct Buffer {
@@ -48,7 +50,8 @@ class Buffers {
     std::vector<Buffer> buffers_;
 };
 
-// The array property `name` of an object; nullptr when it is absent or not an array (the latter is reported, 1010).
+// The array property `name` of an object; nullptr when it is absent or not an array (the latter is reported,
+// 1010).
 const nlohmann::json* find_array(const nlohmann::json& object, const char* name, Reporter& reporter);
 
 // Bytes of base64 text; nothing when it holds another character or stops in the middle.

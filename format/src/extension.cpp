@@ -12,7 +12,8 @@ using nlohmann::json;
 
 const char* type_text(const json& value) { return value.type_name(); }
 
-// A value for a message; containers by their type alone, since printing one recurses as deep as a hostile file nests.
+// A value for a message; containers by their type alone, since printing one recurses as deep as a hostile
+// file nests.
 std::string value_text(const json& value) {
     if (value.is_structured()) return std::string("an ") + type_text(value);
     return value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40);
@@ -40,20 +41,22 @@ bool read_number(const json& object, const char* name, bool required, double& ou
 }
 
 // Integer property of `object` (at `path`) within [low, high]; out of range is issue `range_issue`.
-bool read_count(const json& object, const std::string& path, const char* name, std::int64_t low, std::int64_t high,
-                int range_issue, std::int64_t& out, Reporter& reporter) {
+bool read_count(const json& object, const std::string& path, const char* name, std::int64_t low,
+                std::int64_t high, int range_issue, std::int64_t& out, Reporter& reporter) {
     const json* value = find_property(object, name, true, path, reporter);
     if (value == nullptr) return false;
     const std::string place = path + "/" + name;
     std::int64_t number = 0;
-    if (!value->is_number() ||
-        !read_integer(*value, std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max(), number)) {
-        reporter.report(2005, std::string(name) + " is " + value_text(*value) + ", an integer is needed", place);
+    if (!value->is_number() || !read_integer(*value, std::numeric_limits<std::int64_t>::min(),
+                                             std::numeric_limits<std::int64_t>::max(), number)) {
+        reporter.report(2005, std::string(name) + " is " + value_text(*value) + ", an integer is needed",
+                        place);
         return false;
     }
     if (number < low || number > high) {
-        reporter.report(range_issue, std::string(name) + " is " + std::to_string(number) + ", range [" +
-                                         std::to_string(low) + ", " + std::to_string(high) + "]",
+        reporter.report(range_issue,
+                        std::string(name) + " is " + std::to_string(number) + ", range [" +
+                            std::to_string(low) + ", " + std::to_string(high) + "]",
                         place);
         return false;
     }
@@ -63,7 +66,8 @@ bool read_count(const json& object, const std::string& path, const char* name, s
 
 void read_version(const json& extension, PathDetail& detail, Reporter& reporter) {
     std::int64_t version = 0;
-    if (read_count(extension, "", "version", kPathDetailVersion, kPathDetailVersion, 2006, version, reporter)) {
+    if (read_count(extension, "", "version", kPathDetailVersion, kPathDetailVersion, 2006, version,
+                   reporter)) {
         detail.version = static_cast<int>(version);
     }
 }
@@ -78,8 +82,10 @@ void read_size(const json& extension, PathDetail& detail, Reporter& reporter) {
     detail.size_u = (*size)[0].get<double>();
     detail.size_v = (*size)[1].get<double>();
     if (!(detail.size_u > 0.0) || !(detail.size_v > 0.0)) {
-        reporter.report(2007, "size is [" + number_text(detail.size_u) + ", " + number_text(detail.size_v) +
-                                  "], both must be greater than 0", "/size");
+        reporter.report(2007,
+                        "size is [" + number_text(detail.size_u) + ", " + number_text(detail.size_v) +
+                            "], both must be greater than 0",
+                        "/size");
     }
 }
 
@@ -94,16 +100,19 @@ void read_heights(const json& extension, PathDetail& detail, Reporter& reporter)
     }
     if (!have_base) return;
     if (!(detail.base_offset >= 0.0 && detail.base_offset <= detail.depth)) {
-        reporter.report(2009, "baseOffset is " + number_text(detail.base_offset) + ", range [0, " +
-                                  number_text(detail.depth) + "]",
+        reporter.report(2009,
+                        "baseOffset is " + number_text(detail.base_offset) + ", range [0, " +
+                            number_text(detail.depth) + "]",
                         "/baseOffset");
         return;
     }
     // Relative slack, since base_offset - depth is itself rounded.
     const double lowest = detail.base_offset - detail.depth, slack = 1e-9 * detail.depth;
-    if (have_outer && !(detail.outer_level >= lowest - slack && detail.outer_level <= detail.base_offset + slack)) {
-        reporter.report(2010, "outerLevel is " + number_text(detail.outer_level) + ", range [" + number_text(lowest) +
-                                  ", " + number_text(detail.base_offset) + "]",
+    if (have_outer &&
+        !(detail.outer_level >= lowest - slack && detail.outer_level <= detail.base_offset + slack)) {
+        reporter.report(2010,
+                        "outerLevel is " + number_text(detail.outer_level) + ", range [" +
+                            number_text(lowest) + ", " + number_text(detail.base_offset) + "]",
                         "/outerLevel");
     }
 }
@@ -111,10 +120,10 @@ void read_heights(const json& extension, PathDetail& detail, Reporter& reporter)
 void read_placement(const json& extension, PathDetail& detail, Reporter& reporter) {
     if (const json* wrap = find_property(extension, "wrap", false, "", reporter)) {
         if (!wrap->is_string()) {
-            reporter.report(2005, std::string("wrap is a ") + type_text(*wrap) + ", a string is needed", "/wrap");
+            reporter.report(2005, std::string("wrap is a ") + type_text(*wrap) + ", a string is needed",
+                            "/wrap");
         } else if (*wrap != "repeat" && *wrap != "clamp") {
-            reporter.report(2011, "wrap is " + value_text(*wrap) +
-                                      ", \"repeat\" or \"clamp\" is needed",
+            reporter.report(2011, "wrap is " + value_text(*wrap) + ", \"repeat\" or \"clamp\" is needed",
                             "/wrap");
         } else {
             detail.repeat = *wrap == "repeat";
@@ -134,11 +143,13 @@ const json* read_texture(const json& extension, const char* name, int& view, int
     if (texture == nullptr) return nullptr;
     const std::string path = std::string("/") + name;
     if (!texture->is_object()) {
-        reporter.report(2005, std::string(name) + " is a " + type_text(*texture) + ", an object is needed", path);
+        reporter.report(2005, std::string(name) + " is a " + type_text(*texture) + ", an object is needed",
+                        path);
         return nullptr;
     }
     std::int64_t number = 0;
-    if (read_count(*texture, path, "bufferView", 0, std::numeric_limits<int>::max(), 2016, number, reporter)) {
+    if (read_count(*texture, path, "bufferView", 0, std::numeric_limits<int>::max(), 2016, number,
+                   reporter)) {
         view = static_cast<int>(number);
     }
     if (read_count(*texture, path, "width", 1, BURIN_MAX_TEXTURE_SIDE, 2013, number, reporter)) {
@@ -173,8 +184,9 @@ void read_sections(const json& data, PathDetail& detail, Reporter& reporter) {
     }
     const std::int64_t texels = std::int64_t{detail.data_width} * detail.data_height;
     if (complete && texels > 0 && detail.sections.end() > texels) {
-        reporter.report(2014, "the sections take " + std::to_string(detail.sections.end()) +
-                                  " texels, the data texture has " + std::to_string(texels),
+        reporter.report(2014,
+                        "the sections take " + std::to_string(detail.sections.end()) +
+                            " texels, the data texture has " + std::to_string(texels),
                         "/data");
     }
 }
@@ -201,7 +213,8 @@ bool read_integer(const json& value, std::int64_t low, std::int64_t high, std::i
 bool read_extension(const json& extension, PathDetail& detail, Reporter& reporter) {
     const std::size_t errors = reporter.errors();
     if (!extension.is_object()) {
-        reporter.report(2003, std::string("the extension is a ") + type_text(extension) + ", an object is needed");
+        reporter.report(2003,
+                        std::string("the extension is a ") + type_text(extension) + ", an object is needed");
         return false;
     }
     detail = PathDetail{};

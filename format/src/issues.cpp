@@ -6,7 +6,8 @@
 namespace burin {
 namespace {
 
-constexpr Severity kError = Severity::error, kWarning = Severity::warning, kInformation = Severity::information;
+constexpr Severity kError = Severity::error, kWarning = Severity::warning,
+                   kInformation = Severity::information;
 
 constexpr IssueKind kKinds[] = {
     {1001, kError, "neither a GLB nor glTF JSON"},
@@ -89,8 +90,9 @@ constexpr IssueKind kKinds[] = {
 std::span<const IssueKind> issue_kinds() { return kKinds; }
 
 const IssueKind* find_issue_kind(int number) {
-    const auto found = std::lower_bound(std::begin(kKinds), std::end(kKinds), number,
-                                        [](const IssueKind& kind, int wanted) { return kind.number < wanted; });
+    const auto found =
+        std::lower_bound(std::begin(kKinds), std::end(kKinds), number,
+                         [](const IssueKind& kind, int wanted) { return kind.number < wanted; });
     return found != std::end(kKinds) && found->number == number ? found : nullptr;
 }
 

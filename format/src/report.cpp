@@ -19,9 +19,10 @@ void Reporter::report(int number, std::string message, std::string_view place) {
 void Reporter::close() {
     for (const auto& [number, count] : counts_) {
         if (count <= max_per_number_ || !sink_) continue;
-        sink_(Issue{9001, Severity::information,
-                    std::to_string(count - max_per_number_) + " further findings of number " + std::to_string(number) +
-                        " are not listed",
+        sink_(Issue{9001,
+                    Severity::information,
+                    std::to_string(count - max_per_number_) + " further findings of number " +
+                        std::to_string(number) + " are not listed",
                     {}});
     }
     counts_.clear();

@@ -11,7 +11,8 @@ namespace burin {
 
 class Reporter {
   public:
-    Reporter(const IssueSink& sink, std::size_t max_per_number) : sink_(sink), max_per_number_(max_per_number) {}
+    Reporter(const IssueSink& sink, std::size_t max_per_number)
+        : sink_(sink), max_per_number_(max_per_number) {}
     Reporter(const Reporter&) = delete;
     Reporter& operator=(const Reporter&) = delete;
 

@@ -35,16 +35,15 @@ static_assert(mask(kCount) == BURIN_MAX_REFS_PER_CELL);
 static_assert(mask(kFirst) + 1 == BURIN_MAX_LIST_TEXELS * BURIN_REFS_PER_TEXEL);
 static_assert(mask(kMaterial) + 1 == BURIN_MAX_MATERIALS && mask(12) + 1 == BURIN_MAX_STYLES);
 
-std::uint32_t end_kind(const EndCode& end) {
-    return place(end.priority, 0, 2) | place(end.shape, 2, 2);
-}
+std::uint32_t end_kind(const EndCode& end) { return place(end.priority, 0, 2) | place(end.shape, 2, 2); }
 
 EndCode end_from(std::uint32_t kind, std::uint32_t clip_angle) {
     return {field(kind, 0, 2), field(kind, 2, 2), clip_angle};
 }
 
-// Rounds to whole steps in two stages, first to 2^-21 of a step. The first stage takes away the noise that an earlier
-// division or addition of a whole tile left, so that the second one cuts equal values equally even at an exact half.
+// Rounds to whole steps in two stages, first to 2^-21 of a step. The first stage takes away the noise that an
+// earlier division or addition of a whole tile left, so that the second one cuts equal values equally even at
+// an exact half.
 bool round_steps(double steps, std::int64_t& rounded) {
     constexpr double kFine = 2097152.0;
     if (!(std::abs(steps) < 4294967296.0)) return false;
@@ -147,7 +146,8 @@ StyleCode unpack_style(const Texel& t) {
 
 std::uint32_t pack_profile_point(const ProfilePointCode& p) {
     assert(p.b >= -32768 && p.b <= 32767 && p.h >= -32768 && p.h <= 32767);
-    return static_cast<std::uint16_t>(p.b) | static_cast<std::uint32_t>(static_cast<std::uint16_t>(p.h)) << 16;
+    return static_cast<std::uint16_t>(p.b) | static_cast<std::uint32_t>(static_cast<std::uint16_t>(p.h))
+                                                 << 16;
 }
 
 ProfilePointCode unpack_profile_point(std::uint32_t word) {
@@ -221,7 +221,9 @@ bool encode_scale(double scale, std::uint32_t& code) {
 
 double decode_scale(std::uint32_t code) { return code / BURIN_SCALE_STEPS; }
 
-bool encode_unorm16(double value, std::uint32_t& code) { return encode_unsigned(value * 65535.0, 65535, code); }
+bool encode_unorm16(double value, std::uint32_t& code) {
+    return encode_unsigned(value * 65535.0, 65535, code);
+}
 double decode_unorm16(std::uint32_t code) { return code / 65535.0; }
 bool encode_unorm8(double value, std::uint32_t& code) { return encode_unsigned(value * 255.0, 255, code); }
 double decode_unorm8(std::uint32_t code) { return code / 255.0; }

@@ -30,9 +30,11 @@ struct DecodedData {
 DecodedData check_data(const PackedTextures& textures, const PathDetail& detail, Reporter& reporter);
 
 // 3001-3009: every cell by itself and beside its neighbours. 4050-4052: the lists that cells refer to.
-void check_grid(const PackedTextures& textures, const PathDetail& detail, const DecodedData& data, Reporter& reporter);
+void check_grid(const PackedTextures& textures, const PathDetail& detail, const DecodedData& data,
+                Reporter& reporter);
 
 // 3010: every cell that a step's path line passes through lists it and says so.
-void check_steps(const PackedTextures& textures, const PathDetail& detail, const DecodedData& data, Reporter& reporter);
+void check_steps(const PackedTextures& textures, const PathDetail& detail, const DecodedData& data,
+                 Reporter& reporter);
 
 }  // namespace burin

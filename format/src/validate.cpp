@@ -39,8 +39,8 @@ bool check_sizes(const PackedTextures& t, const PathDetail& d, Reporter& reporte
         reporter.report(2013, "a texture's side is outside of [1, 4096]");
         return false;
     }
-    const bool same = t.grid_width == d.grid_width && t.grid_height == d.grid_height && t.data_width == d.data_width &&
-                      t.data_height == d.data_height;
+    const bool same = t.grid_width == d.grid_width && t.grid_height == d.grid_height &&
+                      t.data_width == d.data_width && t.data_height == d.data_height;
     if (!same || t.grid.size() != words(t.grid_width, t.grid_height, 2) ||
         t.data.size() != words(t.data_width, t.data_height, 4)) {
         reporter.report(2017, "the textures' words do not make up the sides that the extension states");
@@ -50,15 +50,18 @@ bool check_sizes(const PackedTextures& t, const PathDetail& d, Reporter& reporte
     const bool limits = s.element_texels <= BURIN_MAX_ELEMENT_TEXELS && s.style_texels <= BURIN_MAX_STYLES &&
                         s.profile_texels <= BURIN_MAX_PROFILE_TEXELS && s.material_texels >= 1 &&
                         s.material_texels <= BURIN_MAX_MATERIALS && s.list_texels <= BURIN_MAX_LIST_TEXELS;
-    const bool equal = s.element_texels == d.sections.element_texels && s.style_texels == d.sections.style_texels &&
-                       s.profile_texels == d.sections.profile_texels &&
-                       s.material_texels == d.sections.material_texels && s.list_texels == d.sections.list_texels;
+    const bool equal =
+        s.element_texels == d.sections.element_texels && s.style_texels == d.sections.style_texels &&
+        s.profile_texels == d.sections.profile_texels && s.material_texels == d.sections.material_texels &&
+        s.list_texels == d.sections.list_texels;
     if (!limits || !equal) {
-        reporter.report(2015, "a section's length is beyond its limit or not the one that the extension states");
+        reporter.report(2015,
+                        "a section's length is beyond its limit or not the one that the extension states");
         return false;
     }
     if (s.end() > words(t.data_width, t.data_height, 1)) {
-        reporter.report(2014, "the sections take " + std::to_string(s.end()) + " texels, more than the texture has");
+        reporter.report(
+            2014, "the sections take " + std::to_string(s.end()) + " texels, more than the texture has");
         return false;
     }
     return true;
@@ -79,8 +82,10 @@ void check_material(const json& extension, Buffers& buffers, Reporter& reporter)
         return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     };
     reporter.set_prefix({});
-    const auto grid = buffers.view(detail.grid_view, 8 * texels(detail.grid_width, detail.grid_height), prefix + "/grid");
-    const auto data = buffers.view(detail.data_view, 16 * texels(detail.data_width, detail.data_height), prefix + "/data");
+    const auto grid =
+        buffers.view(detail.grid_view, 8 * texels(detail.grid_width, detail.grid_height), prefix + "/grid");
+    const auto data =
+        buffers.view(detail.data_view, 16 * texels(detail.data_width, detail.data_height), prefix + "/data");
     reporter.set_prefix(prefix);
     if (!grid || !data) return;
     check_textures({detail.grid_width, detail.grid_height, words_from_bytes(*grid), detail.data_width,
@@ -107,9 +112,12 @@ void check_primitives(const json& document, const std::map<std::size_t, std::str
             const auto wanted = attribute_of_material.find(static_cast<std::size_t>(material));
             if (wanted == attribute_of_material.end()) continue;
             const auto attributes = primitive.find("attributes");
-            if (attributes != primitive.end() && attributes->is_object() && attributes->contains(wanted->second)) continue;
-            reporter.report(2022, "the primitive has no " + wanted->second + ", which its material's texCoord names",
-                            "/meshes/" + std::to_string(m) + "/primitives/" + std::to_string(p));
+            if (attributes != primitive.end() && attributes->is_object() &&
+                attributes->contains(wanted->second))
+                continue;
+            reporter.report(
+                2022, "the primitive has no " + wanted->second + ", which its material's texCoord names",
+                "/meshes/" + std::to_string(m) + "/primitives/" + std::to_string(p));
         }
     }
 }
@@ -118,7 +126,8 @@ void check_document(const Container& container, const ValidateOptions& options, 
     const json& document = container.document;
     const bool used = names_extension(document, "extensionsUsed", reporter);
     if (names_extension(document, "extensionsRequired", reporter)) {
-        reporter.report(2002, "the extension is listed in extensionsRequired, its fallback would never be shown",
+        reporter.report(2002,
+                        "the extension is listed in extensionsRequired, its fallback would never be shown",
                         "/extensionsRequired");
     }
     const json* materials = find_array(document, "materials", reporter);
@@ -128,14 +137,17 @@ void check_document(const Container& container, const ValidateOptions& options, 
         const json* extension = find_extension((*materials)[i]);
         if (extension == nullptr) continue;
         std::int64_t tex_coord = 0;
-        if (extension->is_object() && extension->contains("texCoord")) read_integer((*extension)["texCoord"], 0, 255, tex_coord);
+        if (extension->is_object() && extension->contains("texCoord"))
+            read_integer((*extension)["texCoord"], 0, 255, tex_coord);
         attribute_of_material[i] = "TEXCOORD_" + std::to_string(tex_coord);
-        reporter.set_prefix("/materials/" + std::to_string(i) + "/extensions/" + std::string(kPathDetailExtension));
+        reporter.set_prefix("/materials/" + std::to_string(i) + "/extensions/" +
+                            std::string(kPathDetailExtension));
         check_material(*extension, buffers, reporter);
         reporter.set_prefix({});
     }
     if (!attribute_of_material.empty() && !used) {
-        reporter.report(2001, "a material has the extension, extensionsUsed does not list it", "/extensionsUsed");
+        reporter.report(2001, "a material has the extension, extensionsUsed does not list it",
+                        "/extensionsUsed");
     }
     if (attribute_of_material.empty()) {
         reporter.report(2021, "no material has " + std::string(kPathDetailExtension), "/materials");
@@ -145,7 +157,8 @@ void check_document(const Container& container, const ValidateOptions& options, 
 
 }  // namespace
 
-void validate_glb(std::span<const std::uint8_t> bytes, const IssueSink& sink, const ValidateOptions& options) {
+void validate_glb(std::span<const std::uint8_t> bytes, const IssueSink& sink,
+                  const ValidateOptions& options) {
     Reporter reporter(sink, options.max_issues_per_number);
     const std::optional<Container> container = read_container(bytes, reporter);
     if (container) check_document(*container, options, reporter);
@@ -164,8 +177,10 @@ bool validate_textures(const PackedTextures& textures, const PathDetail& detail,
 std::vector<std::uint32_t> words_from_bytes(std::span<const std::uint8_t> bytes) {
     std::vector<std::uint32_t> words(bytes.size() / 4);
     for (std::size_t i = 0; i < words.size(); ++i) {
-        words[i] = static_cast<std::uint32_t>(bytes[4 * i]) | static_cast<std::uint32_t>(bytes[4 * i + 1]) << 8 |
-                   static_cast<std::uint32_t>(bytes[4 * i + 2]) << 16 | static_cast<std::uint32_t>(bytes[4 * i + 3]) << 24;
+        words[i] = static_cast<std::uint32_t>(bytes[4 * i]) |
+                   static_cast<std::uint32_t>(bytes[4 * i + 1]) << 8 |
+                   static_cast<std::uint32_t>(bytes[4 * i + 2]) << 16 |
+                   static_cast<std::uint32_t>(bytes[4 * i + 3]) << 24;
     }
     return words;
 }

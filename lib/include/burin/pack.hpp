@@ -17,26 +17,28 @@
 namespace burin {
 
 struct PackOptions {
-    // Levels nearer to each other than this are one level and get one code: a fraction of depth, [0, 0.01]. It must
-    // exceed the rounding noise of levels that were computed in different ways, and stay below any real difference.
+    // Levels nearer to each other than this are one level and get one code: a fraction of depth, [0, 0.01].
+    // It must exceed the rounding noise of levels that were computed in different ways, and stay below any
+    // real difference.
     double same_level = 0.25 / 65535.0;
 };
 
 // What packing shared and left out. Nothing is left out silently.
 struct PackStatistics {
-    std::size_t dropped_elements = 0;   // lines shorter than a coordinate step; their neighbours meet without them
-    std::size_t styles = 0;             // texels; equal ones are stored once
-    std::size_t profiles = 0;           // distinct profiles
+    std::size_t dropped_elements =
+        0;                     // lines shorter than a coordinate step; their neighbours meet without them
+    std::size_t styles = 0;    // texels; equal ones are stored once
+    std::size_t profiles = 0;  // distinct profiles
     std::size_t references_listed = 0;  // sum of all cells' counts
     std::size_t references_stored = 0;  // after sharing of equal and contained lists
 };
 
 // Requires: `grid` was built from `pattern`.
-// Ensures: the textures pass validate_textures (burin/format/validate.hpp) with no error; ends that coincide get equal
-// codes, also across the border of the tile; equal levels get equal codes; identical and contained lists are stored
-// once; no whole row of the data texture is empty. Deterministic.
-// Fails with limit_exceeded, naming limit, place and value: a cell's list, an element's coordinate or scale, styles,
-// profile points, texture sides; invalid_input: a height outside [base_offset - depth, base_offset] where a level is meant,
+// Ensures: the textures pass validate_textures (burin/format/validate.hpp) with no error; ends that coincide
+// get equal codes, also across the border of the tile; equal levels get equal codes; identical and contained
+// lists are stored once; no whole row of the data texture is empty. Deterministic. Fails with limit_exceeded,
+// naming limit, place and value: a cell's list, an element's coordinate or scale, styles, profile points,
+// texture sides; invalid_input: a height outside [base_offset - depth, base_offset] where a level is meant,
 // an index out of range, sizes of the grid's arrays that do not agree.
 // Cost: linear in elements and cells, plus the sharing of lists, about n log n.
 Result<PackedTextures> pack_textures(const ResolvedPattern& pattern, const CellGrid& grid,
@@ -51,9 +53,9 @@ struct UnpackedPattern {
 };
 
 // Safe on untrusted input: everything is checked as validate_textures does before anything is followed.
-// Ensures: element order is the file's; elements whose ends coincide and that share a style are given one path number.
-// Fails with invalid_input: the first error that validate_textures finds, with its number.
-// Cost: linear in the size of the textures.
+// Ensures: element order is the file's; elements whose ends coincide and that share a style are given one
+// path number. Fails with invalid_input: the first error that validate_textures finds, with its number. Cost:
+// linear in the size of the textures.
 Result<UnpackedPattern> unpack_textures(const PackedTextures& textures, const PathDetail& detail);
 
 }  // namespace burin

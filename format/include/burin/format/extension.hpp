@@ -23,25 +23,27 @@ inline constexpr int kPathDetailVersion = 1;
 
 struct PathDetail {
     int version = kPathDetailVersion;
-    double size_u = 1.0, size_v = 1.0;  // metres per uv unit, > 0
-    double depth = 0.01;                // metres, > 0
-    double base_offset = 0.0;           // metres, [0, depth]
-    double outer_level = 0.0;           // metres, [base_offset - depth, base_offset]
-    bool repeat = true;                 // "wrap": "repeat" or "clamp"
-    int tex_coord = 0;                  // >= 0
-    int grid_view = -1, data_view = -1;  // bufferView indices; -1: not yet known
+    double size_u = 1.0, size_v = 1.0;    // metres per uv unit, > 0
+    double depth = 0.01;                  // metres, > 0
+    double base_offset = 0.0;             // metres, [0, depth]
+    double outer_level = 0.0;             // metres, [base_offset - depth, base_offset]
+    bool repeat = true;                   // "wrap": "repeat" or "clamp"
+    int tex_coord = 0;                    // >= 0
+    int grid_view = -1, data_view = -1;   // bufferView indices; -1: not yet known
     int grid_width = 0, grid_height = 0;  // cells
     int data_width = 0, data_height = 0;  // texels
     Sections sections;
 };
 
-// The extension object as compact JSON. Numbers are written so that parse_extension gives them back bit by bit.
+// The extension object as compact JSON. Numbers are written so that parse_extension gives them back bit by
+// bit.
 std::string write_extension(const PathDetail& detail);
 
-// Reads the extension object (the value, without its name). Unknown properties are passed over, as glTF asks; `wrap`,
-// `texCoord`, `baseOffset` and `outerLevel` have defaults ("repeat", 0, 0, 0), the others are required.
-// Fails with invalid_input, naming property and value: not JSON, a property missing, of wrong type or out of its range
-// (the ranges above and layout.h's limits), sections that do not fit into the data texture; unsupported: another version.
+// Reads the extension object (the value, without its name). Unknown properties are passed over, as glTF asks;
+// `wrap`, `texCoord`, `baseOffset` and `outerLevel` have defaults ("repeat", 0, 0, 0), the others are
+// required. Fails with invalid_input, naming property and value: not JSON, a property missing, of wrong type
+// or out of its range (the ranges above and layout.h's limits), sections that do not fit into the data
+// texture; unsupported: another version.
 Result<PathDetail> parse_extension(std::string_view json);
 
 }  // namespace burin

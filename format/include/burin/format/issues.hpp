@@ -2,7 +2,8 @@
 //
 //   1xxx container (GLB and glTF JSON)   2xxx extension JSON and buffer views
 //   3xxx grid texture                    4xxx data texture
-// SPECIFICATION.md names the number at each MUST; tests/unit/validate_test.cpp has a file for each that breaks only it.
+// SPECIFICATION.md names the number at each MUST; tests/unit/validate_test.cpp has a file for each that
+// breaks only it.
 #pragma once
 
 #include <span>
@@ -17,7 +18,8 @@ struct Issue {
     int number = 0;
     Severity severity = Severity::error;
     std::string message;  // what, which value, what would be right; one line
-    std::string pointer;  // JSON pointer into the glTF, and "cell (3,4)" or "element at texel 12" inside a texture
+    std::string
+        pointer;  // JSON pointer into the glTF, and "cell (3,4)" or "element at texel 12" inside a texture
 };
 
 // One row of the table of all issues.

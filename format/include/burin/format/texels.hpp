@@ -1,10 +1,11 @@
 // The two textures in memory, and pack/unpack of one texel of each kind. Pure functions, no allocation.
 //
 // Two layers, each with an exact round trip of its own:
-//   words <-> codes   pack_cell, unpack_cell, pack_element, ... lose nothing: unpack(pack(c)) == c when c is in range
-//   codes <-> values  encode_..., decode_... quantize: |decode(encode(v)) - v| <= the bound stated at each
-// The bit layout stands in layout.h, the prose in SPECIFICATION.md. Words are those of the host's integers; in a file
-// they are little-endian.
+//   words <-> codes   pack_cell, unpack_cell, pack_element, ... lose nothing: unpack(pack(c)) == c when c is
+//   in range codes <-> values  encode_..., decode_... quantize: |decode(encode(v)) - v| <= the bound stated
+//   at each
+// The bit layout stands in layout.h, the prose in SPECIFICATION.md. Words are those of the host's integers;
+// in a file they are little-endian.
 #pragma once
 
 #include <array>
@@ -30,8 +31,8 @@ struct Sections {
     std::uint32_t end() const { return lists_begin() + list_texels; }
 };
 
-// Both textures as integer words, ready for upload as RG32UI and RGBA32UI. Row-major; texel i of a texture of width w
-// lies at (i % w, i / w).
+// Both textures as integer words, ready for upload as RG32UI and RGBA32UI. Row-major; texel i of a texture of
+// width w lies at (i % w, i / w).
 struct PackedTextures {
     int grid_width = 0, grid_height = 0;
     std::vector<std::uint32_t> grid;  // 2 words per cell
@@ -43,7 +44,8 @@ struct PackedTextures {
 using Texel = std::array<std::uint32_t, 4>;      // words x, y, z, w of a data texel
 using CellTexel = std::array<std::uint32_t, 2>;  // words x, y of a grid texel
 
-// ---- codes: every member is the integer that stands in the file ------------------------------------------------
+// ---- codes: every member is the integer that stands in the file
+// ------------------------------------------------
 
 struct CellCode {
     std::uint32_t first_reference = 0;  // [0, 2^20)
@@ -75,9 +77,9 @@ struct ElementCode {
     PointCode p0, p1, p2;  // p1 is 0 for a line
     EndCode start, end;
     bool quadratic = false;
-    bool has_texel_b = false;   // true for every quadratic
-    std::uint32_t unused = 0;   // the bits that have no meaning, gathered: not 0 only in a damaged file
-    std::uint32_t style = 0;    // [0, 4096)
+    bool has_texel_b = false;  // true for every quadratic
+    std::uint32_t unused = 0;  // the bits that have no meaning, gathered: not 0 only in a damaged file
+    std::uint32_t style = 0;   // [0, 4096)
     std::uint32_t width0 = 16384, width1 = 16384, height0 = 16384, height1 = 16384;  // 16384 is 1
 
     bool operator==(const ElementCode&) const = default;
@@ -111,7 +113,8 @@ struct MaterialCode {
     bool operator==(const MaterialCode&) const = default;
 };
 
-// ---- words <-> codes. Requires (asserted) of every pack function: members within the ranges above -----------------
+// ---- words <-> codes. Requires (asserted) of every pack function: members within the ranges above
+// -----------------
 
 CellTexel pack_cell(const CellCode& cell);
 CellCode unpack_cell(const CellTexel& texel);
@@ -132,22 +135,26 @@ ProfilePointCode unpack_profile_point(std::uint32_t word);
 Texel pack_material(const MaterialCode& material);
 MaterialCode unpack_material(const Texel& texel);
 
-// ---- texture access. Requires: index within the texture ---------------------------------------------------------
+// ---- texture access. Requires: index within the texture
+// ---------------------------------------------------------
 
 CellTexel cell_texel(const PackedTextures& textures, std::uint32_t index);
 Texel data_texel(const PackedTextures& textures, std::uint32_t index);
 // Reference `index` of the list section: an element's texel, counted from the start of the element section.
 std::uint32_t list_reference(const PackedTextures& textures, std::uint32_t index);
 
-// ---- codes <-> values. An encoder returns false, and leaves `code` alone, where the value is out of range or not
-// finite; nothing is clamped. ------------------------------------------------------------------------------------------
+// ---- codes <-> values. An encoder returns false, and leaves `code` alone, where the value is out of range
+// or not finite; nothing is clamped.
+// ------------------------------------------------------------------------------------------
 
-// uv coordinate, [-0.5, 1.5) less half a step. Worst error 2^-20 (0.95e-6 of the tile). Values that differ by a whole
-// tile get codes that differ by exactly 524288, also when the addition of the tile cost the last bits.
+// uv coordinate, [-0.5, 1.5) less half a step. Worst error 2^-20 (0.95e-6 of the tile). Values that differ by
+// a whole tile get codes that differ by exactly 524288, also when the addition of the tile cost the last
+// bits.
 bool encode_coordinate(double uv, std::uint32_t& code);
 double decode_coordinate(std::uint32_t code);
 
-// Angle of an undirected line in radians; any finite value, taken modulo pi. Worst error pi / 8192 (3.8e-4 rad).
+// Angle of an undirected line in radians; any finite value, taken modulo pi. Worst error pi / 8192 (3.8e-4
+// rad).
 bool encode_clip_angle(double radians, std::uint32_t& code);
 double decode_clip_angle(std::uint32_t code);
 
@@ -160,7 +167,8 @@ bool encode_unorm16(double value, std::uint32_t& code);
 double decode_unorm16(std::uint32_t code);
 bool encode_unorm8(double value, std::uint32_t& code);
 double decode_unorm8(std::uint32_t code);
-// The same with the error on one side: floor decodes to at most `value` + 1e-9, ceil to at least `value` - 1e-9.
+// The same with the error on one side: floor decodes to at most `value` + 1e-9, ceil to at least `value` -
+// 1e-9.
 bool encode_unorm8_floor(double value, std::uint32_t& code);
 bool encode_unorm8_ceil(double value, std::uint32_t& code);
 
@@ -168,7 +176,8 @@ bool encode_unorm8_ceil(double value, std::uint32_t& code);
 bool encode_snorm16(double value, std::int32_t& code);
 double decode_snorm16(std::int32_t code);
 
-// Height in metres above ground level 0 <-> value of the height range: 1 at base_offset, 0 at base_offset - depth.
+// Height in metres above ground level 0 <-> value of the height range: 1 at base_offset, 0 at base_offset -
+// depth.
 inline double height_to_unit(double height, double depth, double base_offset) {
     return 1.0 + (height - base_offset) / depth;
 }

@@ -1,6 +1,8 @@
-// Validator: checks a file against every MUST and SHOULD of SPECIFICATION.md and reports all findings, not the first.
+// Validator: checks a file against every MUST and SHOULD of SPECIFICATION.md and reports all findings, not
+// the first.
 //
-// Safe on any bytes: never follows an index it has not checked, never allocates more than a small multiple of the input.
+// Safe on any bytes: never follows an index it has not checked, never allocates more than a small multiple of
+// the input.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +22,8 @@ namespace burin {
 
 using IssueSink = std::function<void(const Issue&)>;
 
-// Bytes behind a buffer's URI that is not a data URI; nothing when it cannot be had. The caller decides which paths are
-// allowed: the validator hands over the URI as it stands.
+// Bytes behind a buffer's URI that is not a data URI; nothing when it cannot be had. The caller decides which
+// paths are allowed: the validator hands over the URI as it stands.
 using ResourceReader = std::function<std::optional<std::vector<std::uint8_t>>(std::string_view uri)>;
 
 struct ValidateOptions {
@@ -29,12 +31,13 @@ struct ValidateOptions {
     ResourceReader read_resource;            // absent: external buffers are reported as unreadable (1009)
 };
 
-// `bytes`: a GLB, or glTF JSON. Reports in the order of the file: container, JSON, then each material's textures.
-// Cost: linear in the file's size.
-void validate_glb(std::span<const std::uint8_t> bytes, const IssueSink& sink, const ValidateOptions& options = {});
+// `bytes`: a GLB, or glTF JSON. Reports in the order of the file: container, JSON, then each material's
+// textures. Cost: linear in the file's size.
+void validate_glb(std::span<const std::uint8_t> bytes, const IssueSink& sink,
+                  const ValidateOptions& options = {});
 
-// The 3xxx and 4xxx checks, and of the 2xxx those that concern sizes: `textures` as they are described by `detail`.
-// `pointer` is put before every issue's place. Returns true when no error was found.
+// The 3xxx and 4xxx checks, and of the 2xxx those that concern sizes: `textures` as they are described by
+// `detail`. `pointer` is put before every issue's place. Returns true when no error was found.
 bool validate_textures(const PackedTextures& textures, const PathDetail& detail, const IssueSink& sink,
                        std::string_view pointer = {});
 
