@@ -1,0 +1,217 @@
+// Fit: from points to elements. The steps are in fit_segment.cpp (structure), fit_refine.cpp (least squares) and
+// fit_simplify.cpp (repair and removal).
+#include <burin/fit.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "fit_chain.hpp"
+
+namespace burin {
+
+namespace {
+
+using fit::Chain;
+using fit::Points;
+
+// The points without repeats, and where each came from.
+struct Distinct {
+    std::vector<Vec2> points;
+    std::vector<double> weights;
+    std::vector<std::size_t> source;
+};
+
+Distinct distinct_points(std::span<const Vec2> points, const FitOptions& options) {
+    Distinct out;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!out.points.empty() && points[i] == out.points.back()) continue;
+        out.points.push_back(points[i]);
+        if (!options.weights.empty()) out.weights.push_back(options.weights[i]);
+        out.source.push_back(i);
+    }
+    while (options.closed && out.points.size() > 1 && out.points.back() == out.points.front() + options.period) {
+        out.points.pop_back();
+        if (!out.weights.empty()) out.weights.pop_back();
+        out.source.pop_back();
+    }
+    return out;
+}
+
+// Where a closed row is best cut: at its sharpest turn, seen over a few points on either side.
+std::size_t sharpest_point(const std::vector<Vec2>& p, Vec2 period) {
+    const std::size_t n = p.size();
+    const std::size_t reach = std::max<std::size_t>(1, std::min<std::size_t>(4, n / 4));
+    const auto at = [&](std::size_t i) { return i < n ? p[i] : p[i - n] + period; };
+    std::size_t best = 0;
+    double least = 2.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 here = at(i + reach);
+        const double straight = dot(unit(here - at(i)), unit(at((i + reach) % n + reach) - at((i + reach) % n)));
+        if (straight < least - 1e-9) least = straight, best = (i + reach) % n;
+    }
+    return best;
+}
+
+// The row from `start` on, once around.
+Distinct rotated(const Distinct& row, std::size_t start, Vec2 period) {
+    Distinct out = row;
+    const std::size_t n = row.points.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t j = i + start;
+        out.points[i] = j < n ? row.points[j] : row.points[j - n] + period;
+        if (!row.weights.empty()) out.weights[i] = row.weights[j % n];
+    }
+    return out;
+}
+
+Element line_element(Vec2 a, Vec2 b) {
+    Element e;
+    e.kind = ElementKind::line;
+    e.p0 = a;
+    e.p1 = (a + b) * 0.5;
+    e.p2 = b;
+    return e;
+}
+
+Element quadratic_element(Vec2 a, Vec2 control, Vec2 b) {
+    Element e;
+    e.kind = ElementKind::quadratic;
+    e.p0 = a;
+    e.p1 = control;
+    e.p2 = b;
+    return e;
+}
+
+// Errors of one piece join those of the chain.
+struct Errors {
+    double largest = 0.0, sum = 0.0;
+    long counted = 0;
+    void add(const fit::PieceError& e) {
+        largest = std::max(largest, e.largest);
+        sum += e.sum_of_squares;
+        counted += e.counted;
+    }
+};
+
+// Where a point of the chain's row was in the caller's.
+struct Numbering {
+    const std::vector<std::size_t>& source;
+    std::size_t start;  // of the chain's row
+    std::size_t given;  // points of one turn as the caller counts
+    std::size_t operator()(long i, bool closed) const {
+        const long n = static_cast<long>(source.size());
+        if (!closed) return i >= n ? given : source[static_cast<std::size_t>(i)];
+        const long j = i + static_cast<long>(start);
+        const long lap = j >= 0 ? j / n : -((-j + n - 1) / n);
+        return static_cast<std::size_t>(static_cast<long>(source[static_cast<std::size_t>(j - lap * n)]) +
+                                        (lap + 1) * static_cast<long>(given));
+    }
+};
+
+FitResult result_of(const Chain& chain, const Points& points, const FitOptions& options, const Numbering& numbering) {
+    FitResult result;
+    Errors errors;
+    const double reach = options.corner_reach;
+    const auto push = [&](const Element& e, long first, bool corner) {
+        result.elements.push_back(e);
+        result.corner.push_back(corner ? 1 : 0);
+        result.first_point.push_back(numbering(first, chain.closed));
+    };
+    for (long k = 0; k < chain.size(); ++k) {
+        const fit::Vertex& vertex = chain.at(k);
+        if (!vertex.corner) {
+            push(quadratic_element(chain.joint_in(k), vertex.v, chain.joint_out(k)), chain.begin(k),
+                 !chain.at(k - 1).line && chain.at(k - 1).corner);
+            errors.add(quadratic_error(chain, points, k, reach));
+        }
+        if (k < chain.sides() && vertex.line) {
+            push(line_element(chain.joint_out(k), chain.joint_in(k + 1)), chain.end(k), vertex.corner);
+            errors.add(line_error(chain, points, k, reach));
+        }
+    }
+    result.first_point.push_back(numbering(chain.closed ? chain.begin(chain.size()) : points.count, chain.closed));
+    if (chain.closed && result.elements.size() > 0) {
+        // The chain may begin with a quadratic whose points start before the row does.
+        const long turn = static_cast<long>(numbering.given);
+        while (static_cast<long>(result.first_point.front()) >= turn)
+            for (std::size_t& i : result.first_point) i -= numbering.given;
+    }
+    result.max_error = errors.largest;
+    result.rms_error = std::sqrt(errors.sum / std::max(1.0, static_cast<double>(errors.counted)));
+    return result;
+}
+
+// Makes consecutive ends equal bit by bit: a joint on a side is computed once per neighbour, from the same numbers,
+// but across the seam of a closed chain rounding may differ.
+void weld(FitResult& result, const FitOptions& options) {
+    std::vector<Element>& e = result.elements;
+    for (std::size_t i = 1; i < e.size(); ++i) e[i].p0 = e[i - 1].p2;
+    if (options.closed && !e.empty()) e.back().p2 = e.front().p0 + options.period;
+}
+
+// A joint that turns less than corner_angle is no corner, whatever the structure says, where its tangents agree.
+void mark_corners(FitResult& result, const FitOptions& options) {
+    const std::vector<Element>& e = result.elements;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+        if (i == 0 && !options.closed) {
+            result.corner[i] = 1;
+            continue;
+        }
+        const Vec2 in = unit(derivative_at(e[i == 0 ? e.size() - 1 : i - 1], 1.0));
+        const Vec2 out = unit(derivative_at(e[i], 0.0));
+        result.corner[i] = std::abs(cross(in, out)) > 1e-6 || dot(in, out) < 0.0 ? 1 : 0;
+    }
+}
+
+void check_options(std::span<const Vec2> points, const FitOptions& options) {
+    assert(options.tolerance > 0.0);
+    assert(options.corner_angle > 0.0 && options.corner_angle < std::numbers::pi);
+    assert(options.corner_reach >= 0.0);
+    assert(options.weights.empty() || options.weights.size() == points.size());
+    static_cast<void>(points);
+    static_cast<void>(options);
+}
+
+}  // namespace
+
+Vec2 point_at(const Element& e, double t) {
+    if (e.kind == ElementKind::line) return lerp(e.p0, e.p2, t);
+    return lerp(lerp(e.p0, e.p1, t), lerp(e.p1, e.p2, t), t);
+}
+
+Vec2 derivative_at(const Element& e, double t) {
+    if (e.kind == ElementKind::line) return e.p2 - e.p0;
+    return lerp(e.p1 - e.p0, e.p2 - e.p1, t) * 2.0;
+}
+
+Result<FitResult> fit_curve(std::span<const Vec2> points, const FitOptions& options) {
+    check_options(points, options);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
+            return Error{ErrorCode::invalid_input, "point " + std::to_string(i) + " of a curve is not finite"};
+    Distinct row = distinct_points(points, options);
+    const bool returns = options.closed && (options.period.x != 0.0 || options.period.y != 0.0);
+    if (row.points.size() < 2 && !(returns && row.points.size() == 1))
+        return Error{ErrorCode::invalid_input, "a curve of " + std::to_string(row.points.size()) +
+                                                   " different points, at least 2 are needed"};
+    std::size_t start = 0;
+    if (options.closed) {
+        start = sharpest_point(row.points, options.period);
+        std::vector<std::size_t> source = std::move(row.source);
+        row = rotated(row, start, options.period);
+        row.source = std::move(source);
+    }
+    const Points all(std::move(row.points), std::move(row.weights), options.closed, options.period);
+    Chain chain = fit::segment_points(all, options);
+    fit::repair_chain(chain, all, options);
+    fit::simplify_chain(chain, all, options);
+    FitResult result = result_of(chain, all, options, {row.source, start, points.size()});
+    weld(result, options);
+    mark_corners(result, options);
+    return result;
+}
+
+}  // namespace burin

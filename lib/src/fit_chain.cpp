@@ -1,0 +1,199 @@
+// The control polygon and its points: distances, and which point belongs to which piece.
+#include "fit_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace burin::fit {
+
+Points::Points(std::vector<Vec2> once, std::vector<double> weight_once, bool is_closed, Vec2 turn)
+    : count(static_cast<long>(once.size())), closed(is_closed), period(turn), p_(std::move(once)),
+      weight_(std::move(weight_once)) {
+    if (closed) {
+        shift_ = count;
+        std::vector<Vec2> all;
+        all.reserve(3 * p_.size());
+        for (const double lap : {-1.0, 0.0, 1.0})
+            for (const Vec2 p : p_) all.push_back(p + period * lap);
+        p_ = std::move(all);
+        const std::size_t n = weight_.size();
+        weight_.resize(3 * n);
+        for (std::size_t i = n; i < 3 * n; ++i) weight_[i] = weight_[i - n];
+    }
+    arc_.resize(p_.size());
+    for (std::size_t i = 1; i < p_.size(); ++i) arc_[i] = arc_[i - 1] + length(p_[i] - p_[i - 1]);
+}
+
+long Chain::elements() const {
+    long n = 0;
+    for (long k = 0; k < size(); ++k) n += (at(k).corner ? 0 : 1) + (k < sides() && at(k).line ? 1 : 0);
+    return n;
+}
+
+double corner_radius(Vec2 in, Vec2 out, double corner_reach) {
+    // Half the inner angle a: the turn is pi - a, and tan(a / 2) = sin / (1 + cos) with cos = -dot.
+    const double sine = std::abs(cross(in, out));
+    const double tangent_of_half = sine / std::max(1e-6, 1.0 - dot(in, out));
+    // 5: beyond that the spike is narrower than a fifth of its length, and its tip is a guess anyway.
+    return corner_reach * std::clamp(1.0 / std::max(tangent_of_half, 1e-6), 1.0, 5.0);
+}
+
+namespace {
+
+// Directions in which the curve reaches and leaves vertex k.
+Vec2 direction_in(const Chain& chain, long k) { return unit(chain.position(k) - chain.position(k - 1)); }
+Vec2 direction_out(const Chain& chain, long k) { return unit(chain.position(k + 1) - chain.position(k)); }
+
+// Radius about vertex k within which points do not count: 0 unless it is a corner inside the curve.
+double ignored_radius(const Chain& chain, long k, double corner_reach) {
+    if (!chain.at(k).corner) return 0.0;
+    if (!chain.closed && (k == 0 || k == chain.size() - 1)) return 0.0;
+    return corner_radius(direction_in(chain, k), direction_out(chain, k), corner_reach);
+}
+
+// Shrinks [begin, end) by the points near its corners; keeps the middle when nothing would remain.
+PointRange trimmed(const Points& points, PointRange range, Vec2 first, double first_radius, Vec2 last,
+                   double last_radius) {
+    PointRange r = range;
+    while (r.begin < r.end && length(points[r.begin] - first) < first_radius) ++r.begin;
+    while (r.begin < r.end && length(points[r.end - 1] - last) < last_radius) --r.end;
+    return r;
+}
+
+}  // namespace
+
+PointRange quadratic_range(const Chain& chain, const Points& points, long k, double corner_reach) {
+    const PointRange all{chain.begin(k), chain.end(k)};
+    // A quadratic touches a corner only where the side between carries no line.
+    const double before = chain.at(k - 1).line ? 0.0 : ignored_radius(chain, k - 1, corner_reach);
+    const double after = chain.at(k).line ? 0.0 : ignored_radius(chain, k + 1, corner_reach);
+    return trimmed(points, all, chain.position(k - 1), before, chain.position(k + 1), after);
+}
+
+PointRange line_range(const Chain& chain, const Points& points, long k, double corner_reach) {
+    const PointRange all{chain.end(k), chain.begin(k + 1)};
+    return trimmed(points, all, chain.position(k), ignored_radius(chain, k, corner_reach), chain.position(k + 1),
+                   ignored_radius(chain, k + 1, corner_reach));
+}
+
+double closest_parameter(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess) {
+    // B(t) = p0 + 2 t d + t^2 a; Newton on (B - p) . B', which has one root near the guess for points within a radius
+    // of curvature.
+    const Vec2 d = p1 - p0;
+    const Vec2 a = p2 - p1 - d;
+    double t = guess;
+    for (int i = 0; i < 3; ++i) {
+        const Vec2 offset = p0 + d * (2.0 * t) + a * (t * t) - p;
+        const Vec2 slope = (d + a * t) * 2.0;
+        const double f = dot(offset, slope);
+        const double g = std::max(dot(slope, slope) + 2.0 * dot(offset, a), 0.25 * dot(slope, slope));
+        if (!(g > 0.0)) break;
+        t = std::clamp(t - f / g, -0.1, 1.1);
+    }
+    return std::clamp(t, 0.0, 1.0);
+}
+
+PieceError quadratic_error(const Chain& chain, const Points& points, long k, double corner_reach) {
+    const Vec2 p0 = chain.joint_in(k);
+    const Vec2 p1 = chain.position(k);
+    const Vec2 p2 = chain.joint_out(k);
+    const PointRange range = quadratic_range(chain, points, k, corner_reach);
+    PieceError error;
+    double t = 0.0;
+    for (long i = range.begin; i < range.end; ++i) {
+        if (points.weight(i) == 0.0) continue;
+        t = closest_parameter(p0, p1, p2, points[i], t);
+        const Vec2 foot = lerp(lerp(p0, p1, t), lerp(p1, p2, t), t);
+        const double e = length(points[i] - foot);
+        if (e > error.largest) error.largest = e, error.where = i;
+        error.sum_of_squares += e * e;
+        ++error.counted;
+    }
+    return error;
+}
+
+PieceError line_error(const Chain& chain, const Points& points, long k, double corner_reach) {
+    const Vec2 a = chain.joint_out(k);
+    const Vec2 b = chain.joint_in(k + 1);
+    const Vec2 t = unit(b - a);
+    const double extent = dot(b - a, t);
+    const PointRange range = line_range(chain, points, k, corner_reach);
+    PieceError error;
+    for (long i = range.begin; i < range.end; ++i) {
+        if (points.weight(i) == 0.0) continue;
+        const Vec2 p = points[i] - a;
+        const double along = dot(p, t);
+        const double beyond = std::max({0.0, -along, along - extent});
+        const double e = std::hypot(cross(t, p), beyond);
+        if (e > error.largest) error.largest = e, error.where = i;
+        error.sum_of_squares += e * e;
+        ++error.counted;
+    }
+    return error;
+}
+
+namespace {
+
+// First index in [low, high] whose point lies past the joint, seen along t; the search starts at `guess`.
+long border_index(const Points& points, Vec2 joint, Vec2 t, long guess, long low, long high) {
+    long i = std::clamp(guess, low, high);
+    while (i > low && dot(points[i - 1] - joint, t) >= 0.0) --i;
+    while (i < high && dot(points[i] - joint, t) < 0.0) ++i;
+    return i;
+}
+
+// Next fixed border after vertex k's own two, as far as the points of the pieces reach.
+struct Limits {
+    long low;
+    long high;
+};
+
+void assign_vertex(Chain& chain, const Points& points, long k, Limits limits) {
+    const long lap = chain.turn * chain.turns(k);
+    Vertex& vertex = chain.at(k);
+    if (vertex.corner) {
+        const Vec2 t = unit(direction_in(chain, k) + direction_out(chain, k));
+        const long i = border_index(points, chain.position(k), t, chain.begin(k), limits.low, limits.high);
+        vertex.begin = vertex.end = i - lap;
+        return;
+    }
+    const long b =
+        border_index(points, chain.joint_in(k), direction_in(chain, k), chain.begin(k), limits.low, limits.high);
+    const long e =
+        border_index(points, chain.joint_out(k), direction_out(chain, k), chain.end(k), b, limits.high);
+    vertex.begin = b - lap;
+    vertex.end = e - lap;
+}
+
+}  // namespace
+
+void assign_points(Chain& chain, const Points& points, Window window) {
+    // The neighbours' borders move in the same pass, so a border between two quadratics, which belongs to both, is set
+    // from the earlier one and handed on.
+    const bool whole = window.count >= chain.size();
+    const long first = whole ? 0 : window.first - 1;
+    const long last = whole ? chain.size() - 1 : window.first + window.count;
+    for (long k = first; k <= last; ++k) {
+        if (!chain.closed && (k <= 0 || k >= chain.size() - 1)) continue;
+        long low = chain.end(k - 1);
+        long high = chain.begin(k + 1);
+        // No line between: the border is shared, so it may move within the neighbour's range.
+        if (!chain.at(k - 1).line) low = std::max(chain.begin(k - 1), chain.end(k) - points.count);
+        if (!chain.at(k).line) high = std::min(chain.end(k + 1), chain.begin(k) + points.count);
+        if (chain.closed) low = std::max(low, -points.count), high = std::min(high, 2 * points.count);
+        if (low <= high) assign_vertex(chain, points, k, {low, high});
+        Vertex& before = chain.at(k - 1);
+        Vertex& after = chain.at(k + 1);
+        if (!chain.at(k - 1).line) {
+            before.end = chain.begin(k) - chain.turn * chain.turns(k - 1);
+            if (before.corner) before.begin = before.end;
+        }
+        if (!chain.at(k).line) {
+            after.begin = chain.end(k) - chain.turn * chain.turns(k + 1);
+            if (after.corner) after.end = after.begin;
+        }
+    }
+}
+
+}  // namespace burin::fit

@@ -1,0 +1,114 @@
+// Internal to the fit stage: the points as the fit sees them, and the curve as a control polygon.
+//
+// A chain of lines and quadratics that is tangent-continuous has a control polygon: each quadratic contributes its
+// control point, each corner itself, and every joint lies on a side of the polygon. Written that way the curve is
+// smooth by construction, whatever the optimiser does to the vertices.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <burin/fit.hpp>
+
+namespace burin::fit {
+
+// The points, indexed from -count to 2 count when closed (three turns, so that an element may straddle the start),
+// else from 0 to count - 1.
+class Points {
+  public:
+    Points(std::vector<Vec2> once, std::vector<double> weight_once, bool is_closed, Vec2 turn);
+
+    Vec2 operator[](long i) const { return p_[static_cast<std::size_t>(i + shift_)]; }
+    double weight(long i) const { return weight_.empty() ? 1.0 : weight_[static_cast<std::size_t>(i + shift_)]; }
+    double arc(long i) const { return arc_[static_cast<std::size_t>(i + shift_)]; }
+    bool weighted() const { return !weight_.empty(); }
+
+    long count = 0;  // of one turn
+    bool closed = false;
+    Vec2 period;
+    // Index just past what the chain covers when it starts at 0: an open chain ends with its last point, a closed one
+    // with the first point of the next turn.
+    long end() const { return closed ? count : count - 1; }
+
+  private:
+    std::vector<Vec2> p_;
+    std::vector<double> weight_;
+    std::vector<double> arc_;  // length along the polyline
+    long shift_ = 0;
+};
+
+// Vertex k and side k (from vertex k to vertex k + 1) of the control polygon.
+struct Vertex {
+    Vec2 v;
+    bool corner = false;  // the curve passes through v; otherwise v is the control point of a quadratic
+    long begin = 0;       // points [begin, end) belong to the quadratic; begin == end for a corner
+    long end = 0;
+    // The side: the joints at its start and end as fractions of it. They coincide when the side carries no line.
+    bool line = false;
+    double s0 = 0.0;
+    double s1 = 0.0;
+};
+
+struct Chain {
+    std::vector<Vertex> vertices;  // open: the first and the last are corners
+    bool closed = false;
+    Vec2 period;
+    long turn = 0;  // points of one turn (closed)
+
+    long size() const { return static_cast<long>(vertices.size()); }
+    long sides() const { return closed ? size() : size() - 1; }
+    long wrap(long k) const { return closed ? ((k % size()) + size()) % size() : k; }
+    long turns(long k) const { return closed ? (k - wrap(k)) / size() : 0; }
+    Vertex& at(long k) { return vertices[static_cast<std::size_t>(wrap(k))]; }
+    const Vertex& at(long k) const { return vertices[static_cast<std::size_t>(wrap(k))]; }
+    Vec2 position(long k) const { return at(k).v + period * static_cast<double>(turns(k)); }
+    long begin(long k) const { return at(k).begin + turn * turns(k); }
+    long end(long k) const { return at(k).end + turn * turns(k); }
+    Vec2 joint_out(long k) const { return lerp(position(k), position(k + 1), at(k).s0); }  // first joint on side k
+    Vec2 joint_in(long k) const { return lerp(position(k - 1), position(k), at(k - 1).s1); }  // last on side k - 1
+    long elements() const;
+};
+
+// A run of vertices [first, first + count) that may move; the rest stays.
+struct Window {
+    long first = 0;
+    long count = 0;
+};
+
+struct PieceError {
+    double largest = 0.0;
+    long where = 0;  // point of the largest error
+    double sum_of_squares = 0.0;
+    long counted = 0;
+};
+
+// Which points count for a piece between two joints: those not within reach of a corner.
+struct PointRange {
+    long begin = 0;
+    long end = 0;
+};
+PointRange quadratic_range(const Chain& chain, const Points& points, long k, double corner_reach);
+PointRange line_range(const Chain& chain, const Points& points, long k, double corner_reach);
+PieceError quadratic_error(const Chain& chain, const Points& points, long k, double corner_reach);
+PieceError line_error(const Chain& chain, const Points& points, long k, double corner_reach);
+
+// The distance within which a raster rounds a corner between directions `in` and `out` (unit vectors).
+double corner_radius(Vec2 in, Vec2 out, double corner_reach);
+
+// Foot of p on the quadratic: parameter in [0, 1], starting the search at `guess`.
+double closest_parameter(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess);
+
+// Moves the borders between the pieces' points to where the joints now are.
+void assign_points(Chain& chain, const Points& points, Window window);
+
+// Dynamic programme: the cheapest chain over the candidate breakpoints (fit_segment.cpp).
+Chain segment_points(const Points& points, const FitOptions& options);
+
+// Least squares over the polygon's vertices and joints (fit_refine.cpp). Returns the weighted sum of squares.
+double refine_chain(Chain& chain, const Points& points, const FitOptions& options, Window window, int iterations);
+
+// Splits pieces until all are within tolerance, then removes what can go (fit_simplify.cpp).
+void repair_chain(Chain& chain, const Points& points, const FitOptions& options);
+void simplify_chain(Chain& chain, const Points& points, const FitOptions& options);
+
+}  // namespace burin::fit

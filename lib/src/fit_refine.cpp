@@ -1,0 +1,353 @@
+// Least squares over the control polygon: Levenberg-Marquardt on the distances of the points to the curve.
+//
+// Unknowns are the vertices and the fractions at which joints lie on their sides. The distance of a point to the curve
+// changes, to first order, by the normal component of the change of its foot, so each residual touches at most three
+// neighbouring vertices and two fractions: the normal equations are a narrow band.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fit_chain.hpp"
+
+namespace burin::fit {
+
+namespace {
+
+// Symmetric positive definite matrix, lower envelope by rows, and its Cholesky solution.
+class Envelope {
+  public:
+    explicit Envelope(std::size_t n) : first_(n), start_(n) {
+        for (std::size_t i = 0; i < n; ++i) first_[i] = i;
+    }
+    void touch(std::size_t i, std::size_t j) {
+        if (j > i) std::swap(i, j);
+        first_[i] = std::min(first_[i], j);
+    }
+    void allocate() {
+        std::size_t total = 0;
+        for (std::size_t i = 0; i < first_.size(); ++i) {
+            start_[i] = total;
+            total += i - first_[i] + 1;
+        }
+        value_.assign(total, 0.0);
+    }
+    void clear() { std::fill(value_.begin(), value_.end(), 0.0); }
+    double& at(std::size_t i, std::size_t j) { return value_[start_[i] + j - first_[i]]; }
+    std::size_t size() const { return first_.size(); }
+
+    // Factors in place; false when a pivot is not positive.
+    bool factor() {
+        for (std::size_t i = 0; i < size(); ++i) {
+            for (std::size_t j = first_[i]; j <= i; ++j) {
+                double sum = at(i, j);
+                for (std::size_t k = std::max(first_[i], first_[j]); k < j; ++k) sum -= at(i, k) * at(j, k);
+                if (j < i) {
+                    at(i, j) = sum / at(j, j);
+                } else {
+                    if (!(sum > 0.0)) return false;
+                    at(i, i) = std::sqrt(sum);
+                }
+            }
+        }
+        return true;
+    }
+    void solve(std::vector<double>& x) {
+        for (std::size_t i = 0; i < size(); ++i) {
+            for (std::size_t j = first_[i]; j < i; ++j) x[i] -= at(i, j) * x[j];
+            x[i] /= at(i, i);
+        }
+        for (std::size_t i = size(); i-- > 0;) {
+            x[i] /= at(i, i);
+            for (std::size_t j = first_[i]; j < i; ++j) x[j] -= at(i, j) * x[i];
+        }
+    }
+
+  private:
+    std::vector<std::size_t> first_, start_;
+    std::vector<double> value_;
+};
+
+constexpr int kMost = 8;  // unknowns that one piece depends on
+
+// Normal equations of one piece: local unknowns, their columns (-1: fixed), J^T J and J^T r.
+struct Local {
+    std::array<int, kMost> column;
+    std::array<std::array<double, kMost>, kMost> square{};
+    std::array<double, kMost> right{};
+    double sum = 0.0;
+    int count = 0;
+
+    void add(const std::array<double, kMost>& slope, double residual, double weight) {
+        for (int i = 0; i < count; ++i) {
+            const double s = weight * slope[static_cast<std::size_t>(i)];
+            right[static_cast<std::size_t>(i)] += s * residual;
+            for (int j = 0; j <= i; ++j)
+                square[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] +=
+                    s * slope[static_cast<std::size_t>(j)];
+        }
+        sum += weight * residual * residual;
+    }
+};
+
+class Refiner {
+  public:
+    Refiner(Chain& chain, const Points& points, const FitOptions& options, Window window);
+    double run(int iterations);
+
+  private:
+    struct Columns {
+        int vertex = -1, s0 = -1, s1 = -1;
+    };
+
+    void number_unknowns();
+    void number(long k, bool vertex_free);
+    void shape_envelope();
+    template <typename Visit>
+    void for_each_piece(Visit visit);
+    Local quadratic(long k);
+    Local line(long k);
+    Local end_stop(long k, bool at_start);
+    std::array<int, kMost> columns_of(long k, bool quadratic) const;
+    double assemble(bool with_matrix);
+    void step(const std::vector<double>& change);
+    double weight(long i, double distance) const;
+    Columns& at(long k) { return columns_[static_cast<std::size_t>(chain_.wrap(k))]; }
+    const Columns& at(long k) const { return columns_[static_cast<std::size_t>(chain_.wrap(k))]; }
+
+    Chain& chain_;
+    const Points& points_;
+    const FitOptions& options_;
+    Window window_;
+    bool whole_;
+    int unknowns_ = 0;
+    std::vector<Columns> columns_;
+    Envelope matrix_{0};
+    std::vector<double> right_;
+};
+
+Refiner::Refiner(Chain& chain, const Points& points, const FitOptions& options, Window window)
+    : chain_(chain), points_(points), options_(options), window_(window), whole_(window.count >= chain.size()) {
+    columns_.resize(chain.vertices.size());
+    number_unknowns();
+    matrix_ = Envelope(static_cast<std::size_t>(unknowns_));
+    shape_envelope();
+    right_.resize(static_cast<std::size_t>(unknowns_));
+}
+
+// Side k's fractions that may move, and vertex k when it may.
+void Refiner::number(long k, bool vertex_free) {
+    Columns& c = at(k);
+    if (vertex_free) {
+        const bool pinned = !chain_.closed && ((k == 0 && options_.pin_start) ||
+                                               (k == chain_.size() - 1 && options_.pin_end));
+        if (!pinned) c.vertex = unknowns_, unknowns_ += 2;
+    }
+    if (!chain_.closed && (k < 0 || k >= chain_.sides())) return;
+    const bool start_moves = !chain_.at(k).corner;
+    const bool end_moves = !chain_.at(k + 1).corner;
+    if (chain_.at(k).line) {
+        if (start_moves) c.s0 = unknowns_++;
+        if (end_moves) c.s1 = unknowns_++;
+    } else if (start_moves && end_moves) {
+        c.s0 = c.s1 = unknowns_++;
+    }
+}
+
+void Refiner::number_unknowns() {
+    if (!whole_) {
+        if (chain_.closed || window_.first > 0) number(window_.first - 1, false);
+        for (long k = 0; k < window_.count; ++k) number(window_.first + k, true);
+        return;
+    }
+    const long n = chain_.size();
+    // A closed chain is folded, 0, n-1, 1, n-2, ..., so that neighbours across the seam stay close in the matrix.
+    for (long i = 0; i < n; ++i) number(chain_.closed ? (i % 2 == 0 ? i / 2 : n - 1 - i / 2) : i, true);
+}
+
+template <typename Visit>
+void Refiner::for_each_piece(Visit visit) {
+    long first = whole_ ? 0 : window_.first - 1;
+    long last = whole_ ? chain_.size() - 1 : window_.first + window_.count;
+    if (!chain_.closed) first = std::max(first, 0L), last = std::min(last, chain_.size() - 1);
+    for (long k = first; k <= last; ++k) {
+        if (!chain_.at(k).corner) visit(k, true);
+        if ((chain_.closed || k < chain_.sides()) && chain_.at(k).line) visit(k, false);
+    }
+}
+
+std::array<int, kMost> Refiner::columns_of(long k, bool quadratic) const {
+    const auto pair = [](int c, int i) { return c < 0 ? -1 : c + i; };
+    const Columns& c = at(k);
+    const Columns& n = at(k + 1);
+    if (!quadratic) return {pair(c.vertex, 0), pair(c.vertex, 1), pair(n.vertex, 0), pair(n.vertex, 1), -1, -1, -1, -1};
+    const Columns& b = at(k - 1);
+    return {pair(b.vertex, 0), pair(b.vertex, 1), pair(c.vertex, 0), pair(c.vertex, 1),
+            pair(n.vertex, 0), pair(n.vertex, 1), b.s1,              c.s0};
+}
+
+void Refiner::shape_envelope() {
+    for_each_piece([&](long k, bool quadratic) {
+        const auto columns = columns_of(k, quadratic);
+        for (int a : columns)
+            for (int b : columns)
+                if (a >= 0 && b >= 0) matrix_.touch(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    });
+    matrix_.allocate();
+}
+
+double Refiner::weight(long i, double distance) const {
+    // Points that err more than the tolerance pull harder, which moves the least squares optimum towards the least
+    // largest error; the square keeps one bad point from taking over.
+    const double over = std::abs(distance) / options_.tolerance;
+    return points_.weight(i) * (0.2 + std::min(over * over, 4.0));
+}
+
+Local Refiner::quadratic(long k) {
+    Local local;
+    local.column = columns_of(k, true);
+    local.count = kMost;
+    const Vec2 before = chain_.position(k - 1);
+    const Vec2 control = chain_.position(k);
+    const Vec2 after = chain_.position(k + 1);
+    const double s_in = chain_.at(k - 1).s1;
+    const double s_out = chain_.at(k).s0;
+    const Vec2 p0 = lerp(before, control, s_in);
+    const Vec2 p2 = lerp(control, after, s_out);
+    const PointRange range = quadratic_range(chain_, points_, k, options_.corner_reach);
+    double t = 0.0;
+    for (long i = range.begin; i < range.end; ++i) {
+        t = closest_parameter(p0, control, p2, points_[i], t);
+        const Vec2 n = normal_of(unit(lerp(control - p0, p2 - control, t)));
+        const double w0 = (1.0 - t) * (1.0 - t), w1 = 2.0 * t * (1.0 - t), w2 = t * t;
+        const Vec2 foot = p0 * w0 + control * w1 + p2 * w2;
+        const double residual = dot(n, points_[i] - foot);
+        const double a = w0 * (1.0 - s_in), b = w0 * s_in + w1 + w2 * (1.0 - s_out), c = w2 * s_out;
+        local.add({a * n.x, a * n.y, b * n.x, b * n.y, c * n.x, c * n.y, w0 * dot(n, control - before),
+                   w2 * dot(n, after - control)},
+                  residual, weight(i, residual));
+    }
+    return local;
+}
+
+Local Refiner::line(long k) {
+    Local local;
+    local.column = columns_of(k, false);
+    local.count = 4;
+    const Vec2 a = chain_.position(k);
+    const Vec2 side = chain_.position(k + 1) - a;
+    const Vec2 n = normal_of(unit(side));
+    const double scale = 1.0 / std::max(dot(side, side), 1e-12);
+    const PointRange range = line_range(chain_, points_, k, options_.corner_reach);
+    for (long i = range.begin; i < range.end; ++i) {
+        const Vec2 p = points_[i] - a;
+        const double along = dot(p, side) * scale;
+        const double residual = dot(n, p);
+        const double c0 = 1.0 - along;
+        local.add({c0 * n.x, c0 * n.y, along * n.x, along * n.y, 0, 0, 0, 0}, residual, weight(i, residual));
+    }
+    return local;
+}
+
+// Keeps the free end of an open chain beside its end point.
+Local Refiner::end_stop(long k, bool at_start) {
+    Local local;
+    local.column.fill(-1);
+    local.count = 2;
+    const Columns& c = at(k);
+    if (c.vertex < 0) return local;
+    local.column[0] = c.vertex;
+    local.column[1] = c.vertex + 1;
+    const Vec2 v = chain_.position(k);
+    const Vec2 t = unit(at_start ? chain_.position(1) - v : v - chain_.position(k - 1));
+    const Vec2 target = points_[at_start ? 0 : points_.count - 1];
+    local.add({t.x, t.y, 0, 0, 0, 0, 0, 0}, dot(t, target - v), 1.0);
+    return local;
+}
+
+double Refiner::assemble(bool with_matrix) {
+    double sum = 0.0;
+    const auto scatter = [&](const Local& local) {
+        sum += local.sum;
+        if (!with_matrix) return;
+        for (int i = 0; i < local.count; ++i) {
+            const int a = local.column[static_cast<std::size_t>(i)];
+            if (a < 0) continue;
+            right_[static_cast<std::size_t>(a)] += local.right[static_cast<std::size_t>(i)];
+            for (int j = 0; j <= i; ++j) {
+                const int b = local.column[static_cast<std::size_t>(j)];
+                if (b < 0) continue;
+                const double v = local.square[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+                // The same vertex may enter twice in a chain of one or two: both halves then fall on the diagonal.
+                const double twice = (a == b && i != j) ? 2.0 : 1.0;
+                matrix_.at(static_cast<std::size_t>(std::max(a, b)), static_cast<std::size_t>(std::min(a, b))) +=
+                    v * twice;
+            }
+        }
+    };
+    if (with_matrix) {
+        matrix_.clear();
+        std::fill(right_.begin(), right_.end(), 0.0);
+    }
+    for_each_piece([&](long k, bool is_quadratic) { scatter(is_quadratic ? quadratic(k) : line(k)); });
+    if (!chain_.closed && at(0).vertex >= 0) scatter(end_stop(0, true));
+    if (!chain_.closed && at(chain_.size() - 1).vertex >= 0) scatter(end_stop(chain_.size() - 1, false));
+    return sum;
+}
+
+void Refiner::step(const std::vector<double>& change) {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+        const Columns& c = columns_[k];
+        if (c.vertex < 0) continue;
+        chain_.vertices[k].v.x += change[static_cast<std::size_t>(c.vertex)];
+        chain_.vertices[k].v.y += change[static_cast<std::size_t>(c.vertex) + 1];
+    }
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+        const Columns& c = columns_[k];
+        if (c.s0 < 0 && c.s1 < 0) continue;
+        Vertex& vertex = chain_.vertices[k];
+        // An arm shorter than a tenth of the tolerance would give a joint whose tangent rounding decides.
+        const double side = length(chain_.position(static_cast<long>(k) + 1) - vertex.v);
+        const double low = std::min(0.02, 0.1 * options_.tolerance / std::max(side, 1e-9));
+        if (c.s0 >= 0) vertex.s0 = std::clamp(vertex.s0 + change[static_cast<std::size_t>(c.s0)], low, 1.0 - low);
+        if (c.s1 >= 0 && c.s1 != c.s0)
+            vertex.s1 = std::clamp(vertex.s1 + change[static_cast<std::size_t>(c.s1)], low, 1.0 - low);
+        if (c.s1 >= 0 && c.s1 == c.s0) vertex.s1 = vertex.s0;
+        if (vertex.line && vertex.s1 < vertex.s0) vertex.s0 = vertex.s1 = 0.5 * (vertex.s0 + vertex.s1);
+    }
+}
+
+double Refiner::run(int iterations) {
+    if (unknowns_ == 0) return assemble(false);
+    double damping = 1e-3;
+    double cost = assemble(true);
+    for (int i = 0; i < iterations && damping < 1e6; ++i) {
+        const Chain saved = chain_;
+        for (std::size_t d = 0; d < matrix_.size(); ++d) matrix_.at(d, d) = matrix_.at(d, d) * (1.0 + damping) + 1e-7;
+        std::vector<double> change = right_;
+        if (matrix_.factor()) {
+            matrix_.solve(change);
+            step(change);
+            assign_points(chain_, points_, window_);
+        }
+        const double before = cost;
+        const double after = assemble(true);
+        if (after < before) {
+            cost = after;
+            damping *= 0.2;
+            if (after > before * 0.999) break;
+        } else {
+            chain_ = saved;
+            assemble(true);
+            damping = std::max(damping * 10.0, 1e-4);
+        }
+    }
+    return cost;
+}
+
+}  // namespace
+
+double refine_chain(Chain& chain, const Points& points, const FitOptions& options, Window window, int iterations) {
+    return Refiner(chain, points, options, window).run(iterations);
+}
+
+}  // namespace burin::fit

@@ -1,0 +1,210 @@
+// Adds joints where the tolerance is missed and removes every joint whose absence it bears.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "fit_chain.hpp"
+
+namespace burin::fit {
+
+namespace {
+
+constexpr int kRefineAll = 12;   // iterations over a whole chain
+constexpr int kRefineNear = 8;   // over the few vertices about a change
+constexpr long kFewest = 5;      // points below which a quadratic is not split: it could only follow noise
+
+// Fraction of side k at which a joint lies, for a joint whose side has changed.
+double fraction_on(const Chain& chain, long k, Vec2 joint) {
+    const Vec2 a = chain.position(k);
+    const Vec2 side = chain.position(k + 1) - a;
+    return std::clamp(dot(joint - a, side) / std::max(dot(side, side), 1e-12), 0.02, 0.98);
+}
+
+// Sets the joints of side k after its ends have moved, where the joints were `first` and `last`.
+void place_joints(Chain& chain, long k, Vec2 first, Vec2 last) {
+    Vertex& vertex = chain.at(k);
+    const bool start_corner = vertex.corner, end_corner = chain.at(k + 1).corner;
+    vertex.s0 = start_corner ? 0.0 : fraction_on(chain, k, first);
+    vertex.s1 = end_corner ? 1.0 : fraction_on(chain, k, last);
+    if (vertex.line && vertex.s1 < vertex.s0) vertex.s0 = vertex.s1 = 0.5 * (vertex.s0 + vertex.s1);
+    if (vertex.line) return;
+    if (start_corner) {
+        vertex.s1 = 0.0;
+    } else if (end_corner) {
+        vertex.s0 = 1.0;
+    } else {
+        vertex.s0 = vertex.s1 = 0.5 * (vertex.s0 + vertex.s1);
+    }
+}
+
+void split_line(Chain& chain, long k) {
+    const Vec2 first = chain.joint_out(k), last = chain.joint_in(k + 1);
+    const Vec2 old_end = chain.position(k + 1);
+    Vertex middle;
+    middle.v = (first + last) * 0.5;
+    middle.begin = chain.end(k);
+    middle.end = chain.begin(k + 1);
+    chain.at(k).line = false;
+    chain.vertices.insert(chain.vertices.begin() + k + 1, middle);
+    static_cast<void>(old_end);
+    place_joints(chain, k, first, first);
+    place_joints(chain, k + 1, last, last);
+}
+
+void split_quadratic(Chain& chain, const Points& points, long k) {
+    const Vec2 p0 = chain.joint_in(k), p1 = chain.position(k), p2 = chain.joint_out(k);
+    const Vec2 first = chain.joint_out(k - 1), last = chain.joint_in(k + 1);
+    const long middle = (chain.begin(k) + chain.end(k)) / 2;
+    const double t = std::clamp(closest_parameter(p0, p1, p2, points[middle], 0.5), 0.25, 0.75);
+    Vertex second = chain.at(k);
+    Vertex& vertex = chain.at(k);
+    second.v = lerp(p1, p2, t);
+    second.begin = middle;
+    vertex.v = lerp(p0, p1, t);
+    vertex.end = middle;
+    vertex.line = false;
+    vertex.s0 = vertex.s1 = t;
+    chain.vertices.insert(chain.vertices.begin() + k + 1, second);
+    place_joints(chain, k - 1, first, p0);
+    place_joints(chain, k + 1, p2, last);
+}
+
+Window about(const Chain& chain, long first, long count) {
+    if (chain.closed) return count >= chain.size() - 2 ? Window{0, chain.size()} : Window{chain.wrap(first), count};
+    const long low = std::max(0L, first);
+    const long high = std::min(chain.size(), first + count);
+    return {low, high - low};
+}
+
+// Largest error of the pieces that the window's vertices shape.
+double window_error(const Chain& chain, const Points& points, const FitOptions& options, Window window) {
+    const bool whole = window.count >= chain.size();
+    long first = whole ? 0 : window.first - 1;
+    long last = whole ? chain.size() - 1 : window.first + window.count;
+    if (!chain.closed) first = std::max(first, 0L), last = std::min(last, chain.size() - 1);
+    double largest = 0.0;
+    for (long k = first; k <= last; ++k) {
+        if (!chain.at(k).corner)
+            largest = std::max(largest, quadratic_error(chain, points, k, options.corner_reach).largest);
+        if ((chain.closed || k < chain.sides()) && chain.at(k).line)
+            largest = std::max(largest, line_error(chain, points, k, options.corner_reach).largest);
+    }
+    return largest;
+}
+
+// --- moves that remove an element; each gives the changed chain, or nothing where it does not apply --------------
+
+using Move = std::optional<Chain> (*)(const Chain&, long k);
+
+// The line on side k goes; the curves beside it meet.
+std::optional<Chain> drop_line(const Chain& chain, long k) {
+    const bool start_corner = chain.at(k).corner, end_corner = chain.at(k + 1).corner;
+    if (!chain.at(k).line || (start_corner && end_corner)) return {};
+    Chain next = chain;
+    Vertex& vertex = next.at(k);
+    vertex.line = false;
+    vertex.s0 = vertex.s1 = start_corner ? 0.0 : end_corner ? 1.0 : 0.5 * (vertex.s0 + vertex.s1);
+    const long border = start_corner ? chain.end(k) : end_corner ? chain.begin(k + 1)
+                                                                 : (chain.end(k) + chain.begin(k + 1)) / 2;
+    vertex.end = border - chain.turn * chain.turns(k);
+    next.at(k + 1).begin = border - chain.turn * chain.turns(k + 1);
+    return next;
+}
+
+// The two quadratics that meet on side k become one.
+std::optional<Chain> join_quadratics(const Chain& chain, long k) {
+    if (chain.at(k).corner || chain.at(k + 1).corner || chain.at(k).line) return {};
+    if (chain.closed && chain.size() < 4) return {};
+    const Vec2 before = chain.position(k - 1), a = chain.position(k), b = chain.position(k + 1),
+               after = chain.position(k + 2);
+    const Vec2 in = unit(a - before), out = unit(after - b);
+    const double sine = cross(in, out);
+    // More than about 100 degrees: one parabola would not do.
+    if (dot(in, out) < -0.2) return {};
+    Vec2 v = (a + b) * 0.5;
+    if (std::abs(sine) > 0.02) {
+        const double along = cross(b - a, out) / sine;
+        if (along > 0.0 && along < 2.0 * length(b - a)) v = a + in * along;
+    }
+    const Vec2 j0 = chain.joint_out(k - 1), j1 = chain.joint_in(k), j2 = chain.joint_out(k + 1), j3 = chain.joint_in(k + 2);
+    Chain next = chain;
+    Vertex& vertex = next.at(k);
+    const Vertex& second = chain.at(k + 1);
+    vertex.v = v;
+    vertex.end = chain.end(k + 1) - chain.turn * chain.turns(k);
+    vertex.line = second.line;
+    vertex.s0 = second.s0;
+    vertex.s1 = second.s1;
+    next.vertices.erase(next.vertices.begin() + chain.wrap(k + 1));
+    const long at = chain.wrap(k + 1) == 0 ? k - 1 : k;
+    place_joints(next, at - 1, j0, j1);
+    place_joints(next, at, j2, j3);
+    return next;
+}
+
+// Vertex k goes, and one line runs from the joint before its neighbour to the joint after.
+std::optional<Chain> straighten(const Chain& chain, long k) {
+    if (!chain.closed && (k == 0 || k == chain.size() - 1)) return {};
+    if (chain.closed && chain.size() < 2) return {};
+    const bool line_before = chain.at(k - 1).line, line_after = chain.at(k).line;
+    // A corner goes only between two lines; a quadratic next to at least one.
+    if (chain.at(k).corner ? !(line_before && line_after) : !(line_before || line_after)) return {};
+    const Vec2 in = unit(chain.position(k) - chain.position(k - 1));
+    const Vec2 out = unit(chain.position(k + 1) - chain.position(k));
+    if (dot(in, out) < 0.9) return {};
+    const Vec2 first = chain.joint_out(k - 1), last = chain.joint_in(k + 1);
+    Chain next = chain;
+    next.at(k - 1).line = true;
+    next.vertices.erase(next.vertices.begin() + chain.wrap(k));
+    // Vertex k - 1 keeps its index unless vertex k stood before it in the array.
+    place_joints(next, chain.wrap(k) == 0 ? next.size() - 1 : k - 1, first, last);
+    return next;
+}
+
+bool try_move(Chain& chain, const Points& points, const FitOptions& options, Move move, long k) {
+    std::optional<Chain> next = move(chain, k);
+    if (!next) return false;
+    const Window window = about(*next, k - 2, 5);
+    assign_points(*next, points, window);
+    refine_chain(*next, points, options, window, kRefineNear);
+    if (window_error(*next, points, options, window) > options.tolerance) return false;
+    chain = std::move(*next);
+    return true;
+}
+
+}  // namespace
+
+void repair_chain(Chain& chain, const Points& points, const FitOptions& options) {
+    const double reach = options.corner_reach;
+    assign_points(chain, points, {0, chain.size()});
+    for (int round = 0; round < 12; ++round) {
+        refine_chain(chain, points, options, {0, chain.size()}, kRefineAll);
+        bool changed = false;
+        // From the back, so that an insertion leaves the numbers before it alone.
+        for (long k = chain.size() - 1; k >= 0; --k) {
+            if (k < chain.sides() && chain.at(k).line) {
+                const PieceError e = line_error(chain, points, k, reach);
+                if (e.largest > options.tolerance && e.counted >= kFewest) split_line(chain, k), changed = true;
+            }
+            if (!chain.at(k).corner) {
+                const PieceError e = quadratic_error(chain, points, k, reach);
+                if (e.largest > options.tolerance && e.counted >= kFewest)
+                    split_quadratic(chain, points, k), changed = true;
+            }
+        }
+        if (!changed) return;
+        assign_points(chain, points, {0, chain.size()});
+    }
+}
+
+void simplify_chain(Chain& chain, const Points& points, const FitOptions& options) {
+    for (int pass = 0; pass < 3; ++pass) {
+        bool changed = false;
+        for (const Move move : {&straighten, &drop_line, &join_quadratics})
+            for (long k = 0; k < chain.sides(); ++k)
+                while (k < chain.sides() && try_move(chain, points, options, move, k)) changed = true;
+        if (!changed) return;
+    }
+}
+
+}  // namespace burin::fit
