@@ -1,0 +1,123 @@
+"""The small inputs of the command line tests, made here: no file of anyone else is needed."""
+
+import base64
+import json
+import math
+import os
+import struct
+import zlib
+
+
+def png(width, height, rows, bits=16):
+    """A grey PNG; rows hold integers of `bits` bits."""
+
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
+    code = "B" if bits == 8 else "H"
+    raw = b"".join(b"\0" + struct.pack(">%d%s" % (width, code), *row) for row in rows)
+    header = struct.pack(">IIBBBBB", width, height, bits, 0, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b"")
+
+
+def sampled(width, height, surface, samples=4):
+    """16-bit rows of the box-filtered surface(x, y) in [0, 1], x and y in texels."""
+    rows = []
+    for j in range(height):
+        row = []
+        for i in range(width):
+            total = 0.0
+            for b in range(samples):
+                for a in range(samples):
+                    total += surface(i + (a + 0.5) / samples, j + (b + 0.5) / samples)
+            row.append(min(65535, max(0, round(65535 * total / samples**2))))
+        rows.append(row)
+    return rows
+
+
+def groove(x, y):
+    """Two V grooves that cross, one of them slanting, on a map of 96 x 96 texels."""
+    first = max(0.0, 1.0 - abs(y - 48.0) / 6.0)
+    second = max(0.0, 1.0 - abs((x - 40.0) * 0.8 - (y - 48.0) * 0.6) / 6.0)
+    return 1.0 - 0.8 * max(first, second)
+
+
+def noise_rows(side, seed=12345):
+    """Rows of white noise from a linear congruential generator."""
+    rows = []
+    state = seed
+    for _ in range(side):
+        row = []
+        for _ in range(side):
+            state = (state * 6364136223846793005 + 1442695040888963407) % 2**64
+            row.append(state >> 48)
+        rows.append(row)
+    return rows
+
+
+def plane_gltf(materials):
+    """Two triangles for each material, with normals and uv, embedded."""
+    positions = struct.pack("<12f", 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 0, 1)
+    normals = struct.pack("<12f", *([0, 1, 0] * 4))
+    uvs = struct.pack("<8f", 0, 0, 1, 0, 1, 1, 0, 1)
+    indices = struct.pack("<6H", 0, 2, 1, 0, 3, 2)
+    data = positions + normals + uvs + indices
+    views, offset = [], 0
+    for part in (positions, normals, uvs, indices):
+        views.append({"buffer": 0, "byteOffset": offset, "byteLength": len(part)})
+        offset += len(part)
+    primitive = {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3}
+    return json.dumps({
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [dict(primitive, material=i) for i in range(len(materials))]}],
+        "materials": [{"name": name} for name in materials],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 0, 1]},
+            {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"},
+            {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"},
+            {"bufferView": 3, "componentType": 5123, "count": 6, "type": "SCALAR"},
+        ],
+        "bufferViews": views,
+        "buffers": [{"byteLength": len(data),
+                     "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+    })
+
+
+OBJ = """v 0 0 0\nv 2 0 0\nv 2 0 2\nv 0 0 2\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 3/3 2/2\nf 1/1 4/4 3/3\n"""
+
+
+def write_inputs(folder):
+    """Writes every input into the folder and returns {name: path}, the placeholders of the cases."""
+    side = 96
+    grooves = png(side, side, sampled(side, side, groove))
+    files = {
+        "groove.png": grooves,
+        "groove_named.xyz": grooves,
+        "groove_depth.png": png(side, side, sampled(side, side, lambda x, y: 1.0 - groove(x, y))),
+        "wide.png": png(64, 32, sampled(64, 32, lambda x, y: 0.2 if math.hypot(x - 32, y - 16) < 9 else 0.9)),
+        "constant.png": png(16, 16, [[128] * 16] * 16, bits=8),
+        "one_texel.png": png(1, 1, [[200]], bits=8),
+        "noise.png": png(128, 128, noise_rows(128)),
+        "truncated.png": grooves[: len(grooves) // 2],
+        "empty.png": b"",
+        "words.txt": b"burin reads height maps and this is none\n",
+        "words.png": b"burin reads height maps and this is none\n",
+        "two_materials.gltf": plane_gltf(["brass", "slate"]).encode(),
+        "one_material.gltf": plane_gltf(["brass"]).encode(),
+        "plane.obj": OBJ.encode(),
+        "broken.gltf": b'{"asset": {"version": "2.0"}, "scenes": [',
+        "no_pattern.gltf": plane_gltf(["brass"]).encode(),
+        "bad_magic.glb": b"glTX" + struct.pack("<II", 2, 12),
+        "short.glb": b"glTF" + struct.pack("<II", 2, 4000),
+    }
+    paths = {}
+    for name, data in files.items():
+        path = os.path.join(folder, name)
+        with open(path, "wb") as file:
+            file.write(data)
+        paths[name] = path
+    return paths
