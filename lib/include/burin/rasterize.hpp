@@ -26,6 +26,7 @@ struct RasterizeOptions {
     // Texels where the surface is one plane (or one gentle curve whose mean differs by less than this, as a fraction
     // of depth) are sampled once, in the middle, which gives the same mean. 0 switches that off for curves.
     double curve_tolerance = 2e-6;
+    double level_tolerance = 1e-9;  // as in TruthOptions
 };
 
 // Requires: width, height >= 1; options in their ranges; a region that lies within the map; a pattern as Truth needs.
