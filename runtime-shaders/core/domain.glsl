@@ -1,0 +1,201 @@
+// Where an element acts along the ray: the table of end-kinds as stretches of the ray, each with one formula for b'.
+//
+// An element is cut into parts: the main part over its carrier, and up to two parts beyond each end (round, bevel and
+// hip). Every border of a part is a line over the plane, so that a part is one interval of the ray.
+
+#define BURIN_PART_MAIN 0
+#define BURIN_PART_START 1   // beyond the start
+#define BURIN_PART_START_FLANK 2  // beyond the start of a curve with a hip, where |b| > a
+#define BURIN_PART_END 3
+#define BURIN_PART_END_FLANK 4
+#define BURIN_PARTS 5
+
+// One end of an element, turned so that `inward` leads into it.
+struct BurinEnd {
+    vec2 vertex;
+    vec2 inward;
+    vec2 normal;  // of the path, which keeps its direction
+    uint priority;
+    uint shape;
+    vec2 clip;  // direction of the clip line
+};
+
+BurinEnd burin_end(BurinElement e, bool at_start) {
+    BurinEnd end;
+    end.vertex = at_start ? e.p0 : e.p2;
+    end.inward = at_start ? e.t0 : -e.t2;
+    end.normal = burin_normal_of(at_start ? e.t0 : e.t2);
+    uint kind = at_start ? e.kind0 : e.kind2;
+    end.priority = kind & 3u;
+    end.shape = kind >> 2;
+    float angle = at_start ? e.clip0 : e.clip2;
+    end.clip = vec2(1.0f, 0.0f);
+    if (end.priority != BURIN_PRIORITY_NONE) end.clip = vec2(cos(angle), sin(angle));
+    return end;
+}
+
+// Keeps where (p - anchor) . gradient >= 0, with an overlap; the gradient has about length 1.
+BurinPiece burin_clip(BurinPiece piece, BurinRay ray, vec2 anchor, vec2 gradient) {
+    float rate = dot(gradient, ray.slope);
+    float value = BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y) - dot(gradient, anchor);
+    if (rate == 0.0f) {
+        if (value < 0.0f) piece.hi = piece.lo - 1.0f;
+        return piece;
+    }
+    float t = -value / rate;
+    if (rate > 0.0f) {
+        if (t > piece.lo) {
+            piece.lo = t;
+            piece.lo_wall = gradient;
+        }
+    } else if (t < piece.hi) {
+        piece.hi = t;
+        piece.hi_wall = gradient;
+    }
+    return piece;
+}
+
+// Normal of the clip line that leads to the element's side. A clip line along the tangent itself acts as a = 0.
+vec2 burin_clip_normal(BurinEnd end) {
+    vec2 across = burin_normal_of(end.clip);
+    float lead = dot(across, end.inward);
+    return abs(lead) < 1.0e-4f ? end.inward : (lead < 0.0f ? -across : across);
+}
+
+bool burin_own_sector(BurinEnd end, float side) {
+    return end.priority == (side < 0.0f ? BURIN_PRIORITY_LEFT : BURIN_PRIORITY_RIGHT);
+}
+
+// Borders that an end sets to the main part, and to the parts beyond the other end.
+BurinPiece burin_clip_main(BurinPiece piece, BurinRay ray, BurinEnd end, float side, bool curved) {
+    bool both = end.priority == BURIN_PRIORITY_BOTH;
+    bool own = burin_own_sector(end, side);
+    bool clipped = own || (both && end.shape == BURIN_END_CLIP);
+    if (clipped) piece = burin_clip(piece, ray, end.vertex, burin_clip_normal(end));
+    if (clipped && (both || end.shape == BURIN_CORNER_MITRE)) return piece;
+    // A hip beyond a line goes on as b' = b while |b| >= a.
+    vec2 border = end.inward;
+    if (both && end.shape == BURIN_END_HIP && !curved) border = end.inward + side * end.normal;
+    return burin_clip(piece, ray, end.vertex, border);
+}
+
+// The part beyond an end; empty where the end has none.
+BurinPiece burin_clip_beyond(BurinPiece piece, BurinRay ray, BurinEnd end, float side, bool flank) {
+    bool both = end.priority == BURIN_PRIORITY_BOTH;
+    bool own = burin_own_sector(end, side);
+    bool hip = both && end.shape == BURIN_END_HIP;
+    bool round_end = both && end.shape == BURIN_END_ROUND;
+    bool joined = own && end.shape != BURIN_CORNER_MITRE;
+    if (flank ? !hip : !(hip || round_end || joined)) {
+        piece.hi = piece.lo - 1.0f;
+        return piece;
+    }
+    piece = burin_clip(piece, ray, end.vertex, -end.inward);
+    piece = burin_clip(piece, ray, end.vertex, side * end.normal);
+    piece.kind = BURIN_PIECE_LINEAR;
+    piece.anchor = end.vertex;
+    piece.gradient = end.normal;
+    if (joined) piece = burin_clip(piece, ray, end.vertex, burin_clip_normal(end));
+    if (hip) {
+        vec2 border = end.inward + side * end.normal;
+        piece = burin_clip(piece, ray, end.vertex, flank ? border : -border);
+        if (!flank) piece.gradient = -side * end.inward;
+    } else if (round_end || end.shape == BURIN_CORNER_ROUND) {
+        piece.kind = BURIN_PIECE_RADIAL;
+    } else {
+        vec2 middle = dot(end.clip, end.normal) < 0.0f ? -end.clip : end.clip;
+        piece.gradient = middle * (1.0f / max(dot(middle, end.normal), 1.0e-3f));
+    }
+    return piece;
+}
+
+// Both ends leave the whole stretch alone, on either side of the element.
+bool burin_leaves_alone(BurinPiece piece, BurinRay ray, BurinEnd end) {
+    vec2 a = ray.slope * piece.lo - end.vertex;
+    vec2 b = ray.slope * piece.hi - end.vertex;
+    if (min(dot(a, end.inward), dot(b, end.inward)) < 0.0f) return false;
+    bool clipped = end.priority == BURIN_PRIORITY_LEFT || end.priority == BURIN_PRIORITY_RIGHT ||
+                   (end.priority == BURIN_PRIORITY_BOTH && end.shape == BURIN_END_CLIP);
+    vec2 across = burin_clip_normal(end);
+    return !clipped || min(dot(a, across), dot(b, across)) >= 0.0f;
+}
+
+// The stretch of `whole` where part `part` acts on `side` (-1 or +1).
+BurinPiece burin_part(BurinElement e, BurinRay ray, BurinPiece whole, int part, float side) {
+    BurinPiece piece = whole;
+    piece.side = side;
+    piece.width = 1.0f;
+    piece.height = 1.0f;
+    BurinEnd start = burin_end(e, true);
+    BurinEnd end = burin_end(e, false);
+    if (part == BURIN_PART_MAIN) {
+        piece = burin_clip_main(piece, ray, start, side, e.curved);
+        piece = burin_clip_main(piece, ray, end, side, e.curved);
+        if (!e.curved) piece = burin_clip(piece, ray, e.p0, side * start.normal);
+    } else if (part == BURIN_PART_START || part == BURIN_PART_START_FLANK) {
+        piece = burin_clip_beyond(piece, ray, start, side, part == BURIN_PART_START_FLANK);
+        piece = burin_clip_main(piece, ray, end, side, e.curved);
+    } else {
+        piece = burin_clip_beyond(piece, ray, end, side, part == BURIN_PART_END_FLANK);
+        piece = burin_clip_main(piece, ray, start, side, e.curved);
+    }
+    return piece;
+}
+
+// The formula of a part, whatever stretch of the ray it is asked on.
+BurinPiece burin_formula(BurinElement e, BurinPiece piece, int part) {
+    piece.fixed_scale = part != BURIN_PART_MAIN || !e.scaled;
+    bool at_end = part == BURIN_PART_END || part == BURIN_PART_END_FLANK;
+    piece.width = max(at_end ? e.scales.y : e.scales.x, 1.0e-3f);
+    piece.height = max(at_end ? e.scales.w : e.scales.z, 1.0e-3f);
+    if (part == BURIN_PART_MAIN) {
+        piece.kind = e.curved ? BURIN_PIECE_CURVE : BURIN_PIECE_LINEAR;
+        piece.anchor = e.p0;
+        piece.gradient = burin_normal_of(e.t0);
+    }
+    return piece;
+}
+
+// Section point of the ray at drop t, and the gradients that its normal needs.
+struct BurinSection {
+    vec2 q;
+    vec2 gradient;  // of b' over the plane
+    float width;
+    float height;
+    vec2 tangent;      // along the path
+    vec2 scale_rates;  // of width and height per metre along the path
+};
+
+BurinSection burin_section(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, float t) {
+    vec2 p = ray.slope * t;
+    BurinSection s;
+    s.width = piece.width;
+    s.height = piece.height;
+    s.tangent = e.t0;
+    s.scale_rates = vec2(0.0f, 0.0f);
+    s.gradient = piece.gradient;
+    float b = dot(piece.gradient, p - piece.anchor);
+    float along = 0.0f;
+    if (piece.kind == BURIN_PIECE_RADIAL) {
+        b = piece.side * length(p - piece.anchor);
+        s.gradient = burin_direction(p - piece.anchor, e.t0) * piece.side;
+    } else if (piece.kind == BURIN_PIECE_CURVE) {
+        BurinFoot foot = burin_curve_foot(e, p);
+        b = foot.offset;
+        s.gradient = foot.normal;
+        s.tangent = vec2(foot.normal.y, -foot.normal.x);
+        along = foot.parameter;
+    } else if (!piece.fixed_scale) {
+        along = dot(p - e.p0, e.t0) / max(e.extent, 1.0e-9f);
+    }
+    if (!piece.fixed_scale) {
+        float clamped = clamp(along, 0.0f, 1.0f);
+        s.width = max(mix(e.scales.x, e.scales.y, clamped), 1.0e-3f);
+        s.height = max(mix(e.scales.z, e.scales.w, clamped), 1.0e-3f);
+        if (along == clamped) {
+            s.scale_rates = vec2(e.scales.y - e.scales.x, e.scales.w - e.scales.z) * (1.0f / max(e.extent, 1.0e-9f));
+        }
+    }
+    s.q = vec2(b / (s.width * style.reach), (style.level - t) / (s.height * burin_map.depth));
+    return s;
+}

@@ -1,0 +1,106 @@
+// Texels to structs. Needs fetch_cell(ivec2) -> uvec2, fetch_data(int) -> uvec4 and burin_map, which bindings.glsl
+// defines for GLSL and decode.hpp for C++. Bit positions: format/layout.h.
+
+uint burin_word(uvec4 v, int i) {
+    return i == 0 ? v.x : (i == 1 ? v.y : (i == 2 ? v.z : v.w));
+}
+
+float burin_snorm16(uint code) {
+    int value = int(code);
+    value = value > 32767 ? value - 65536 : value;
+    return max(float(value) / 32767.0f, -1.0f);
+}
+
+// Drop of a UNORM level, 1 being the object surface.
+float burin_drop(float unorm) {
+    return burin_map.depth * (1.0f - unorm);
+}
+
+BurinCell burin_cell(ivec2 index) {
+    uvec2 word = fetch_cell(index);
+    BurinCell cell;
+    cell.first = int(word.x & 0xfffffu);
+    cell.count = int((word.x >> 20) & 63u);
+    cell.skip = int((word.x >> 26) & 15u);
+    cell.flags = word.x >> 30;
+    cell.level = burin_drop(float(word.y & 0xffffu) / 65535.0f);
+    cell.highest = burin_drop(float((word.y >> 16) & 255u) / 255.0f);
+    cell.lowest = burin_drop(float(word.y >> 24) / 255.0f);
+    return cell;
+}
+
+uint burin_reference(int index) {
+    uvec4 texel = fetch_data(burin_map.first_list + index / BURIN_REFS_PER_TEXEL);
+    int slot = index % BURIN_REFS_PER_TEXEL;
+    uint word = burin_word(texel, slot / 2);
+    return slot % 2 == 0 ? word & 0xffffu : word >> 16;
+}
+
+// Exact in float: 20 bits of code, a power of two, and whole tiles.
+vec2 burin_vertex_uv(uint x, uint y) {
+    return vec2(float(x & 0xfffffu), float(y & 0xfffffu)) * (1.0f / 524288.0f) - vec2(0.5f, 0.5f);
+}
+
+vec2 burin_direction(vec2 v, vec2 otherwise) {
+    float l = length(v);
+    return l > 0.0f ? v * (1.0f / l) : otherwise;
+}
+
+float burin_scale(uint code) {
+    return float(code & 0xffffu) * (1.0f / 16384.0f);
+}
+
+// The element as seen from `origin`, in the tile image whose chord is nearest to the cell's centre.
+BurinElement burin_element(uint reference, vec2 origin, vec2 centre) {
+    uvec4 a = fetch_data(int(reference));
+    BurinElement e;
+    e.curved = (a.z & 0x10000000u) != 0u;
+    vec2 p0 = burin_vertex_uv(a.x, a.y);
+    vec2 p2 = burin_vertex_uv(a.z, a.w);
+    vec2 p1 = (p0 + p2) * 0.5f;
+    e.scales = vec4(1.0f, 1.0f, 1.0f, 1.0f);
+    e.scaled = false;
+    if ((a.z & 0x20000000u) != 0u) {
+        uvec4 b = fetch_data(int(reference) + 1);
+        if (e.curved) p1 = burin_vertex_uv(b.x, b.y);
+        e.scales = vec4(burin_scale(b.z), burin_scale(b.z >> 16), burin_scale(b.w), burin_scale(b.w >> 16));
+        e.scaled = b.z >> 16 != (b.z & 0xffffu) || b.w >> 16 != (b.w & 0xffffu);
+    }
+    vec2 shift = vec2(0.0f, 0.0f);
+    if (burin_map.repeats != 0) {
+        shift = floor(centre - (p0 + p2) * 0.5f + vec2(0.5f, 0.5f));
+    }
+    e.p0 = (p0 + shift) * burin_map.size - origin;
+    e.p1 = (p1 + shift) * burin_map.size - origin;
+    e.p2 = (p2 + shift) * burin_map.size - origin;
+    vec2 chord = burin_direction(e.p2 - e.p0, vec2(1.0f, 0.0f));
+    e.extent = length(e.p2 - e.p0);
+    e.t0 = e.curved ? burin_direction(e.p1 - e.p0, chord) : chord;
+    e.t2 = e.curved ? burin_direction(e.p2 - e.p1, chord) : chord;
+    e.kind0 = (a.z >> 20) & 15u;
+    e.kind2 = (a.z >> 24) & 15u;
+    e.clip0 = float(a.x >> 20) * (3.14159265f / 4096.0f);
+    e.clip2 = float(a.y >> 20) * (3.14159265f / 4096.0f);
+    e.style = a.w >> 20;
+    return e;
+}
+
+BurinStyle burin_style(uint index) {
+    uvec4 texel = fetch_data(burin_map.first_style + int(index));
+    BurinStyle style;
+    style.first = burin_map.first_profile + int(texel.x & 0xffffu);
+    style.count = int((texel.x >> 16) & 63u);
+    style.stepped = ((texel.x >> 22) & 1u) != 0u;
+    style.material = texel.x >> 23;
+    style.level = burin_drop(float(texel.y & 0xffffu) / 65535.0f);
+    style.right_level = burin_drop(float(texel.y >> 16) / 65535.0f);
+    style.reach = uintBitsToFloat(texel.z);
+    style.internal = texel.w;
+    return style;
+}
+
+vec2 burin_profile_point(BurinStyle style, int i) {
+    uvec4 texel = fetch_data(style.first + i / BURIN_POINTS_PER_TEXEL);
+    uint word = burin_word(texel, i % BURIN_POINTS_PER_TEXEL);
+    return vec2(burin_snorm16(word & 0xffffu), burin_snorm16(word >> 16));
+}

@@ -1,0 +1,118 @@
+// The ray against one profile: [2010] 5.3. In the plane of the section the ray's stretch is a segment qa-qb; crossing
+// tests take the signs of the profile's points against the segment and of the segment's ends against the facet, so
+// that neighbours agree on every shared point and nothing falls between. Curved stretches polish each crossing.
+//
+// A facet's outer side lies to the left of its direction (profiles run left to right). To cross it inwards enters what
+// the element adds and leaves what it cuts. A cut is closed by a vertical ray upwards from each end of its run of facets.
+
+// What the passes over a cell's elements have found so far.
+struct BurinPass {
+    float from;      // drop at which the ray is known to be in air
+    float add;       // first drop at or after `from` inside an addition, where smaller than `ground`
+    float ground;    // first drop at or after `from` below the ground
+    float air;       // grows: everything between the probe and it is cut away
+    bool want_adds;
+    int pieces;      // stretches that could hold something, to know when one pass is enough
+    BurinMark add_mark;
+    BurinMark air_mark;
+};
+
+struct BurinEvents {
+    float add;  // next crossing of the add's border after `add_from`
+    int add_facet;
+    bool add_enters;
+    bool add_at_end;  // whether qb lies in the add
+    float cut;        // the same for the cut after `cut_from`
+    int cut_facet;
+    bool cut_leaves;
+    bool cut_at_end;
+};
+
+// Drop where the stretch ta-tb crosses the line through `anchor` with normal `across`; fa, fb: values at its ends.
+float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 values,
+                     vec2 anchor, vec2 across, bool straight) {
+    float ta = range.x;
+    float tb = range.y;
+    float fa = values.x;
+    float fb = values.y;
+    float t = mix(ta, tb, fa / (fa - fb));
+    if (straight) return t;
+    // Regula falsi with halving of the end that stays (Illinois).
+    for (int i = 0; i < 5; ++i) {
+        float f = dot(burin_section(e, style, piece, ray, t).q - anchor, across);
+        if ((f > 0.0f) == (fb > 0.0f)) {
+            tb = t;
+            fb = f;
+            fa = fa * 0.5f;
+        } else {
+            ta = tb;
+            fa = fb;
+            tb = t;
+            fb = f;
+        }
+        if (abs(fa - fb) < 1.0e-12f) break;
+        t = clamp(mix(ta, tb, fa / (fa - fb)), range.x, range.y);
+    }
+    return t;
+}
+
+BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
+                         bool straight, float add_from, float cut_from) {
+    BurinEvents found;
+    found.add = 1.0e30f;
+    found.cut = 1.0e30f;
+    found.add_facet = BURIN_FACET_WALL;
+    found.cut_facet = BURIN_FACET_WALL;
+    found.add_enters = false;
+    found.cut_leaves = false;
+    found.add_at_end = false;
+    found.cut_at_end = false;
+    vec2 d = qb - qa;
+    vec2 last = vec2(0.0f, 0.0f);
+    bool last_left = false;
+    bool last_internal = false;
+    bool run_odd = false;
+    for (int i = 0; i <= BURIN_MAX_PROFILE_POINTS; ++i) {
+        if (i > style.count) break;
+        bool internal = i > 0 && i < style.count && ((style.internal >> (i - 1)) & 1u) != 0u;
+        vec2 point = i < style.count ? burin_profile_point(style, i) : last;
+        bool left = d.x * (point.y - qa.y) - d.y * (point.x - qa.x) > 0.0f;
+        vec2 edge = point - last;
+        bool facet = i > 0 && i < style.count;
+        if (facet && (last.x <= qb.x) != (point.x <= qb.x)) {
+            float h = last.y + edge.y * ((qb.x - last.x) / edge.x);
+            if (h > qb.y) found.add_at_end = !found.add_at_end;
+            else if (internal) run_odd = !run_odd;
+        }
+        if (last_internal && !internal) {
+            found.cut_at_end = found.cut_at_end || run_odd;
+            run_odd = false;
+        }
+        // The facet itself, and the vertical ray over the point where a run of cutting facets begins or ends.
+        bool above = (d.x > 0.0f) != last_left;
+        int edges = internal != last_internal ? 2 : 1;
+        for (int k = facet ? 0 : 1; k < edges; ++k) {
+            vec2 across = k == 0 ? vec2(-edge.y, edge.x) : vec2(internal ? 1.0f : -1.0f, 0.0f);
+            bool straddles = k == 0 ? left != last_left : above;
+            float fa = dot(qa - last, across);
+            float fb = dot(qb - last, across);
+            if (!straddles || (fa > 0.0f) == (fb > 0.0f)) continue;
+            float t = burin_crossing(e, style, piece, ray, range, vec2(fa, fb), last, across, straight);
+            bool inwards = fa > 0.0f;
+            if (k == 0 && t > add_from && t < found.add) {
+                found.add = t;
+                found.add_facet = i - 1;
+                found.add_enters = inwards;
+            }
+            if ((k == 1 || internal) && t > cut_from && t < found.cut) {
+                found.cut = t;
+                found.cut_facet = k == 0 ? i - 1 : BURIN_FACET_WALL;
+                found.cut_leaves = inwards;
+            }
+        }
+        last = point;
+        last_left = left;
+        last_internal = internal;
+    }
+    return found;
+}

@@ -1,0 +1,70 @@
+// What was met: normal, facet, material. Asked once for a hit, so that tracing carries nothing but names.
+
+struct BurinSurface {
+    vec3 normal;  // z up, unit length
+    int facet;    // of the profile, or BURIN_FACET_GROUND, BURIN_FACET_WALL
+    uint material;
+};
+
+// The upright facet on the path line of a step that the drop t lies on.
+int burin_step_facet(BurinElement e, BurinStyle style, float t) {
+    float h = (style.level - t) / (max(e.scales.z, 1.0e-3f) * burin_map.depth);
+    vec2 last = burin_profile_point(style, 0);
+    for (int i = 1; i < BURIN_MAX_PROFILE_POINTS; ++i) {
+        if (i >= style.count) break;
+        vec2 point = burin_profile_point(style, i);
+        bool upright = abs(point.x) < 1.0e-3f && abs(last.x) < 1.0e-3f;
+        if (upright && h >= min(point.y, last.y) - 1.0e-3f && h <= max(point.y, last.y) + 1.0e-3f) return i - 1;
+        last = point;
+    }
+    return BURIN_FACET_WALL;
+}
+
+vec3 burin_wall_normal(vec2 wall, vec2 slope) {
+    vec2 n = length(wall) > 0.0f ? wall : -slope;
+    if (dot(n, slope) > 0.0f) n = -n;
+    n = burin_direction(n, vec2(1.0f, 0.0f));
+    return vec3(n.x, n.y, 0.0f);
+}
+
+BurinSurface burin_surface(BurinHit hit) {
+    BurinSurface s;
+    s.facet = hit.mark.facet;
+    s.material = 0u;
+    s.normal = vec3(0.0f, 0.0f, 1.0f);
+    if (hit.mark.element == BURIN_NO_ELEMENT) {
+        if (s.facet == BURIN_FACET_WALL) s.normal = burin_wall_normal(hit.mark.wall, hit.ray.slope);
+        return s;
+    }
+    BurinElement e = burin_element(hit.mark.element, hit.ray.origin, hit.centre);
+    BurinStyle style = burin_style(e.style);
+    s.material = style.material;
+    if (s.facet == BURIN_FACET_STEP) s.facet = burin_step_facet(e, style, hit.t);
+    if (hit.mark.facet < 0) {
+        s.normal = burin_wall_normal(hit.mark.wall, hit.ray.slope);
+        return s;
+    }
+    BurinPiece piece;
+    piece.lo = hit.t;
+    piece.hi = hit.t;
+    piece.lo_wall = vec2(0.0f, 0.0f);
+    piece.hi_wall = vec2(0.0f, 0.0f);
+    piece.kind = BURIN_PIECE_LINEAR;
+    piece.side = 0.0f;
+    piece.anchor = e.p0;
+    piece.gradient = vec2(0.0f, 0.0f);
+    piece.width = 1.0f;
+    piece.height = 1.0f;
+    piece.fixed_scale = true;
+    if (hit.mark.part != BURIN_PART_MAIN) piece = burin_part(e, hit.ray, piece, hit.mark.part, hit.mark.side);
+    piece = burin_formula(e, piece, hit.mark.part);
+    BurinSection section = burin_section(e, style, piece, hit.ray, hit.t);
+    vec2 edge = burin_profile_point(style, s.facet + 1) - burin_profile_point(style, s.facet);
+    vec2 rates = section.scale_rates / vec2(section.width, section.height);
+    vec2 along_b = section.gradient * (1.0f / (section.width * style.reach)) - section.tangent * (section.q.x * rates.x);
+    vec2 along_h = section.tangent * (section.q.y * rates.y);
+    vec2 n = along_h * -edge.x - along_b * edge.y;
+    vec3 normal = vec3(n.x, n.y, edge.x / (section.height * burin_map.depth));
+    s.normal = length(normal) > 0.0f ? normalize(normal) : vec3(0.0f, 0.0f, 1.0f);
+    return s;
+}

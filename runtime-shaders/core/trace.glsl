@@ -1,0 +1,322 @@
+// First point of the ray that is solid: [2010] 5.1 to 5.4. Cell by cell, none skipped that lists something; in a cell
+// stretch by stretch of equal ground; in a stretch by passes over the listed elements:
+//     find the first point in (ground U additions); while it lies in a cut, go on where the cuts end; else it is met.
+
+// What one stretch of an element says about the first solid point.
+void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
+                 BurinMark mark, BURIN_INOUT(BurinPass) pass) {
+    bool straight = piece.kind == BURIN_PIECE_LINEAR && piece.fixed_scale;
+    float margin = straight ? 1.0f : 1.25f;
+    if (min(qa.x, qb.x) > margin || max(qa.x, qb.x) < -margin) return;
+    pass.pieces = pass.pieces + 1;
+    float same = BURIN_SAME_DROP * burin_map.depth;
+    float add_from = max(pass.from, range.x);
+    BurinEvents next = burin_events(e, style, piece, ray, range, qa, qb, straight,
+                                    add_from > pass.from ? add_from : pass.from + same, pass.air + same);
+    mark.wall = range.y == piece.hi ? piece.hi_wall : vec2(0.0f, 0.0f);
+    if (range.x <= pass.air && pass.air < range.y) {
+        bool crossed = next.cut < 1.0e29f;
+        if (crossed ? next.cut_leaves : next.cut_at_end) {
+            pass.air = crossed ? next.cut : range.y;
+            mark.facet = next.cut_facet;
+            if (crossed && mark.facet == BURIN_FACET_WALL) mark.wall = piece.gradient;
+            pass.air_mark = mark;
+        }
+    }
+    if (!pass.want_adds || add_from >= range.y) return;
+    bool crossed = next.add < 1.0e29f;
+    bool inside = crossed ? !next.add_enters : next.add_at_end;
+    if (!inside && !(crossed && next.add_enters)) return;
+    float entry = inside ? add_from : next.add;
+    if (entry >= min(pass.add, pass.ground)) return;
+    pass.add = entry;
+    mark.facet = inside ? (add_from > pass.from ? BURIN_FACET_WALL : BURIN_FACET_KEEP) : next.add_facet;
+    mark.wall = piece.lo_wall;
+    pass.add_mark = mark;
+}
+
+// Stretches on which b' runs nearly straight, so that no crossing of the profile is passed over.
+int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray) {
+    if (piece.kind == BURIN_PIECE_LINEAR && piece.fixed_scale) return 1;
+    float way = length(ray.slope) * (piece.hi - piece.lo);
+    float bend = 0.0f;
+    if (piece.kind == BURIN_PIECE_CURVE) bend = length(e.p0 - 2.0f * e.p1 + e.p2) * 2.0f / max(e.extent * e.extent, 1.0e-12f);
+    if (piece.kind == BURIN_PIECE_RADIAL) bend = 2.0f / style.reach;
+    if (!piece.fixed_scale) bend = bend + 1.0f / max(e.extent, 1.0e-6f);
+    // Rise of the arc over its chord, in reaches.
+    float rise = way * way * bend / (8.0f * style.reach);
+    return clamp(int(ceil(sqrt(rise * 12.0f))), 1, BURIN_MAX_SEGMENTS);
+}
+
+void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinMark mark,
+                       BURIN_INOUT(BurinPass) pass) {
+    int count = burin_segment_count(e, style, piece, ray);
+    bool halved = piece.kind == BURIN_PIECE_CURVE && piece.side != 0.0f;
+    vec2 range = vec2(piece.lo, piece.lo);
+    vec2 qa = vec2(0.0f, 0.0f);
+    vec2 qb = vec2(0.0f, 0.0f);
+    for (int i = 0; i <= BURIN_MAX_SEGMENTS; ++i) {
+        if (i > count) break;
+        range = vec2(range.y, i == count ? piece.hi : mix(piece.lo, piece.hi, float(i) / float(count)));
+        qa = qb;
+        qb = burin_section(e, style, piece, ray, range.y).q;
+        if (i == 0) continue;
+        vec2 half_range = range;
+        vec2 ha = qa;
+        vec2 hb = qb;
+        if (halved) {
+            // The sides of a curve part where b changes sign.
+            bool from_inside = qa.x * piece.side >= 0.0f;
+            bool to_inside = qb.x * piece.side >= 0.0f;
+            if (!from_inside && !to_inside) continue;
+            if (from_inside != to_inside) {
+                float t = burin_crossing(e, style, piece, ray, range, vec2(qa.x, qb.x), vec2(0.0f, 0.0f),
+                                         vec2(1.0f, 0.0f), false);
+                vec2 q = vec2(0.0f, mix(qa.y, qb.y, (t - range.x) / (range.y - range.x)));
+                if (from_inside) {
+                    half_range.y = t;
+                    hb = q;
+                } else {
+                    half_range.x = t;
+                    ha = q;
+                }
+            }
+        }
+        burin_judge(e, style, piece, ray, half_range, ha, hb, mark, pass);
+    }
+}
+
+// Every part of one element over the stretch t0-t1 of equal ground.
+void burin_visit(uint reference, BurinRay ray, vec2 centre, vec2 stretch, float ground, BURIN_INOUT(BurinPass) pass) {
+    BurinElement e = burin_element(reference, ray.origin, centre);
+    BurinStyle style = burin_style(e.style);
+    float same = BURIN_SAME_LEVEL * burin_map.depth;
+    bool left = abs(style.level - ground) < same;
+    bool right = abs(style.right_level - ground) < same;
+    if (!left && !right) return;
+    float pad = BURIN_SAME_DROP * burin_map.depth + 1.0e-5f * (stretch.y - stretch.x);
+    BurinPiece whole;
+    whole.lo = stretch.x - pad;
+    whole.hi = stretch.y + pad;
+    whole.lo_wall = vec2(0.0f, 0.0f);
+    whole.hi_wall = vec2(0.0f, 0.0f);
+    whole.kind = BURIN_PIECE_LINEAR;
+    whole.side = 0.0f;
+    whole.anchor = e.p0;
+    whole.gradient = vec2(0.0f, 0.0f);
+    whole.width = 1.0f;
+    whole.height = 1.0f;
+    whole.fixed_scale = true;
+    bool plain = left && right && burin_leaves_alone(whole, ray, burin_end(e, true)) &&
+                 burin_leaves_alone(whole, ray, burin_end(e, false));
+    BurinMark mark;
+    mark.element = reference;
+    mark.facet = BURIN_FACET_WALL;
+    mark.wall = vec2(0.0f, 0.0f);
+    for (int i = 0; i < 2 * BURIN_PARTS; ++i) {
+        if (plain && i > 0) break;
+        mark.part = i / 2;
+        mark.side = plain ? 0.0f : (i % 2 == 0 ? -1.0f : 1.0f);
+        if (!plain && !(i % 2 == 0 ? left : right)) continue;
+        BurinPiece piece = whole;
+        if (!plain) piece = burin_part(e, ray, whole, mark.part, mark.side);
+        if (piece.hi <= piece.lo) continue;
+        piece = burin_formula(e, piece, mark.part);
+        burin_visit_piece(e, style, piece, ray, mark, pass);
+    }
+}
+
+// First solid point of a stretch with equal ground. `hit.mark` on entry names the wall that stands at its start.
+bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT(BurinHit) hit) {
+    float at = stretch.x;
+    bool at_add = false;
+    float add = 0.0f;
+    for (int n = 0; n < BURIN_MAX_PASSES; ++n) {
+        BurinPass pass;
+        pass.from = at;
+        pass.ground = max(at, ground);
+        pass.want_adds = !at_add && at < ground;
+        pass.add = 1.0e30f;
+        float probe = at_add ? add : pass.ground;
+        pass.air = probe;
+        pass.pieces = 0;
+        pass.add_mark = hit.mark;
+        pass.air_mark = hit.mark;
+        for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
+            if (i >= cell.count) break;
+            burin_visit(burin_reference(cell.first + i), hit.ray, hit.centre, stretch, ground, pass);
+        }
+        if (pass.add < pass.ground) {
+            at_add = true;
+            add = pass.add;
+            if (pass.add_mark.facet != BURIN_FACET_KEEP) hit.mark = pass.add_mark;
+            continue;
+        }
+        if (probe >= stretch.y) return false;
+        if (pass.air <= probe) {
+            if (!at_add && probe > at) {
+                hit.mark.element = BURIN_NO_ELEMENT;
+                hit.mark.facet = BURIN_FACET_GROUND;
+            }
+            hit.t = probe;
+            return true;
+        }
+        at = pass.air;
+        hit.mark = pass.air_mark;
+        at_add = false;
+        if (at >= stretch.y) return false;
+        // A single stretch cannot be contradicted by another one.
+        if (pass.pieces == 1 && at >= ground) {
+            hit.t = at;
+            return true;
+        }
+    }
+    hit.t = at;
+    return true;
+}
+
+// First solid point of the ray between two drops inside one cell.
+bool burin_trace_cell(BurinCell cell, vec2 range, BURIN_INOUT(BurinHit) hit) {
+    bool stepped = (cell.flags & BURIN_CELL_FLAG_STEP) != 0u;
+    float ground = cell.level;
+    vec2 a = hit.ray.slope * range.x;
+    vec2 b = hit.ray.slope * range.y;
+    float after = -1.0f;
+    float from = range.x;
+    for (int n = 0; n <= BURIN_MAX_GROUND_CHANGES; ++n) {
+        BurinStepLine line;
+        line.at = 2.0f;
+        line.level = ground;
+        line.mark = hit.mark;
+        if (stepped) {
+            vec2 centre = hit.centre * burin_map.size - hit.ray.origin;
+            bool first = n == 0;
+            line = burin_step_line(cell, hit.ray, hit.centre, first ? centre : a, first ? a : b, after, first);
+            if (first) {
+                ground = line.level;
+                continue;
+            }
+        }
+        float to = line.at > 1.0f ? range.y : mix(range.x, range.y, max(line.at, 0.0f));
+        if (to > from || line.at > 1.0f) {
+            if (burin_trace_stretch(cell, vec2(from, to), ground, hit)) return true;
+        }
+        if (line.at > 1.0f) return false;
+        after = line.at;
+        from = to;
+        ground = line.level;
+        hit.mark = line.mark;
+    }
+    return false;
+}
+
+// Drop where the ray leaves the box low-high, along `axis` (0 or 1).
+float burin_leave(BurinRay ray, vec2 low, vec2 high, BURIN_OUT(int) axis) {
+    float tx = ray.slope.x == 0.0f ? 1.0e30f : ((ray.slope.x > 0.0f ? high.x : low.x) - ray.origin.x) / ray.slope.x;
+    float ty = ray.slope.y == 0.0f ? 1.0e30f : ((ray.slope.y > 0.0f ? high.y : low.y) - ray.origin.y) / ray.slope.y;
+    axis = tx < ty ? 0 : 1;
+    return min(tx, ty);
+}
+
+// Outside a map that does not repeat: true when the ray ends on the ground there; else `t` is moved to the border.
+bool burin_trace_outside(BURIN_INOUT(BurinHit) hit, BURIN_INOUT(float) t) {
+    vec2 low = vec2(0.0f, 0.0f) - hit.ray.origin;
+    vec2 high = burin_map.size - hit.ray.origin;
+    float enter = t;
+    float leave = 1.0e30f;
+    vec2 wall = vec2(0.0f, 0.0f);
+    for (int axis = 0; axis < 2; ++axis) {
+        float slope = axis == 0 ? hit.ray.slope.x : hit.ray.slope.y;
+        float a = axis == 0 ? low.x : low.y;
+        float b = axis == 0 ? high.x : high.y;
+        if (slope == 0.0f) {
+            if (a > 0.0f || b < 0.0f) leave = -1.0f;
+            continue;
+        }
+        float near = min(a / slope, b / slope);
+        if (near > enter) wall = axis == 0 ? vec2(1.0f, 0.0f) : vec2(0.0f, 1.0f);
+        enter = max(enter, near);
+        leave = min(leave, max(a / slope, b / slope));
+    }
+    if (enter >= leave || enter >= burin_map.outer_level) {
+        hit.t = max(t, burin_map.outer_level);
+        if (t < burin_map.outer_level) hit.mark.facet = BURIN_FACET_GROUND;
+        return true;
+    }
+    t = enter;
+    hit.mark.wall = wall;
+    return false;
+}
+
+// Follows the ray from drop t0 until it meets the surface or has fallen to t1.
+BurinHit burin_trace(BurinRay start, float t0, float t1) {
+    BurinHit hit;
+    hit.met = true;
+    hit.t = t1;
+    hit.ray = start;
+    hit.mark.element = BURIN_NO_ELEMENT;
+    hit.mark.part = BURIN_PART_MAIN;
+    hit.mark.side = 0.0f;
+    hit.mark.facet = BURIN_FACET_WALL;
+    hit.mark.wall = vec2(0.0f, 0.0f);
+    vec2 size = burin_map.size;
+    bool repeats = burin_map.repeats != 0;
+    vec2 cell_size = size / vec2(burin_map.cells);
+    vec2 p = start.origin + start.slope * t0;
+    if (repeats) {
+        vec2 tile = floor(p / size) * size;
+        hit.ray.origin = hit.ray.origin - tile;
+        p = p - tile;
+    }
+    float t = t0;
+    bool outside = !repeats && (p.x < 0.0f || p.y < 0.0f || p.x > size.x || p.y > size.y);
+    ivec2 index = clamp(ivec2(floor(p / cell_size)), ivec2(0, 0), burin_map.cells - ivec2(1, 1));
+    hit.centre = vec2(0.0f, 0.0f);
+    for (int n = 0; n < BURIN_MAX_CELLS_PER_RAY; ++n) {
+        if (outside) {
+            if (burin_trace_outside(hit, t)) break;
+            outside = false;
+            p = hit.ray.origin + hit.ray.slope * t;
+            index = clamp(ivec2(floor(p / cell_size)), ivec2(0, 0), burin_map.cells - ivec2(1, 1));
+        }
+        BurinCell cell = burin_cell(index);
+        hit.centre = (vec2(index) + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
+        int axis;
+        vec2 low = vec2(index - ivec2(cell.skip, cell.skip)) * cell_size;
+        vec2 high = vec2(index + ivec2(cell.skip + 1, cell.skip + 1)) * cell_size;
+        float leave = max(burin_leave(hit.ray, low, high, axis), t);
+        vec2 range = vec2(t, min(leave, t1));
+        // Above the highest surface of the cell there is nothing to meet.
+        if (cell.highest > range.x) range.x = min(cell.highest, range.y);
+        if (leave > cell.highest || t1 <= leave) {
+            if (burin_trace_cell(cell, range, hit)) return hit;
+        }
+        if (leave >= t1) {
+            hit.met = false;
+            hit.t = t1;
+            return hit;
+        }
+        t = leave;
+        int forward = (axis == 0 ? hit.ray.slope.x : hit.ray.slope.y) > 0.0f ? cell.skip + 1 : -cell.skip - 1;
+        hit.mark.element = BURIN_NO_ELEMENT;
+        hit.mark.facet = BURIN_FACET_WALL;
+        hit.mark.wall = axis == 0 ? vec2(1.0f, 0.0f) : vec2(0.0f, 1.0f);
+        p = hit.ray.origin + hit.ray.slope * t;
+        ivec2 next = index;
+        if (cell.skip > 0) {
+            next = clamp(ivec2(floor(p / cell_size)), index - ivec2(cell.skip, cell.skip),
+                         index + ivec2(cell.skip, cell.skip));
+        }
+        if (axis == 0) next.x = index.x + forward;
+        else next.y = index.y + forward;
+        index = next;
+        if (repeats) {
+            ivec2 tile = ivec2(floor(vec2(index) / vec2(burin_map.cells)));
+            index = index - tile * burin_map.cells;
+            hit.ray.origin = hit.ray.origin - vec2(tile) * size;
+        } else {
+            outside = index.x < 0 || index.y < 0 || index.x >= burin_map.cells.x || index.y >= burin_map.cells.y;
+        }
+    }
+    return hit;
+}

@@ -1,0 +1,98 @@
+// Draws an asset with the fragment shader of this folder, off screen: what a viewer that knows the extension shows.
+//
+//     Asset --[render_asset]--> RgbaImage (sRGB)      Asset --[render_top]--> Image (heights)
+//     PackedTextures + rays --[shade_rays]--> hits    (the tests' way into the shader)
+//
+// World space is glTF's: right-handed, y up, metres. Directions are given as azimuth and elevation in degrees: azimuth
+// 0 is +z (in front of a model, at the lower edge of a plane), 90 is +x; elevation 90 is +y.
+// Shading: metallic-roughness of the glTF material or the pattern's override, one directional light, a soft ambient
+// term. Where a detail is drawn the core normal and occlusion textures are its fallback and are not used.
+// Source: [2010] 5; perspective and shadows 5.6.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <burin/geometry.hpp>
+#include <burin/image.hpp>
+#include <burin/image_io.hpp>
+#include <burin/model.hpp>
+#include <burin/result.hpp>
+
+namespace burin {
+
+// OSMesa needs no GPU. EGL takes the first device that opens without a window. Both are loaded when asked for.
+enum class Backend { osmesa, egl };
+
+struct Camera {
+    double azimuth = 30.0;    // degrees, where the camera stands around the asset
+    double elevation = 50.0;  // degrees, [-90, 90]; 90 is straight above with u to the right and v down
+    double zoom = 1.0;        // 1 shows all of the asset; > 0
+    double field_of_view = 30.0;  // degrees, vertical, (0, 120]
+    bool orthographic = false;
+    // Point of the pattern that the camera looks at, uv; without it the middle of the asset's box.
+    std::optional<Vec2> center;
+    // These replace azimuth, elevation and zoom when given. Without `target` the point above.
+    std::optional<std::array<double, 3>> eye;
+    std::optional<std::array<double, 3>> target;
+};
+
+struct Light {
+    double azimuth = -50.0;   // degrees, where the light comes from
+    double elevation = 35.0;  // degrees
+    double strength = 3.0;    // irradiance of the directional light in units of pi / white
+    double ambient = 0.35;    // of the same
+};
+
+struct RenderOptions {
+    int width = 1024, height = 768;  // pixels, [1, 8192]
+    Camera camera;
+    Light light;
+    bool shadows = true;
+    int samples = 16;  // per pixel, [1, 256]; rounded up to a square number
+    std::array<float, 3> background = {0.93f, 0.93f, 0.93f};  // sRGB
+    Backend backend = Backend::osmesa;
+};
+
+// Fails with unavailable (no context of that backend, with its reason; a GPU too small), invalid_argument (an option
+// out of range), limit_exceeded (an asset without triangles).
+// Cost: on OSMesa some 2 to 10 million samples per second on two cores without shadows, half with them, plus about a
+// second to build the program.
+Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options = {});
+
+struct TopOptions {
+    int material = -1;  // index into Asset::materials; -1: the first with a detail
+    int samples = 1;    // per texel side, [1, 16]: each texel is the mean of samples x samples points
+    Backend backend = Backend::osmesa;
+};
+
+// The whole tile from straight above, as the shader draws it, in the map's scale (1 = object surface, 0 = `depth` below).
+// Fails as render_asset does, and with invalid_input when no material has a detail.
+Result<Image> render_top(const Asset& asset, int width, int height, const TopOptions& options = {});
+
+// A ray as the decoder follows it: it passes the object surface at `origin` (metres) and moves `slope` metres over the
+// plane per metre that it falls.
+struct PatternRay {
+    float origin[2];
+    float slope[2];
+};
+
+struct ShadedHit {
+    float drop;             // metres below the object surface
+    std::uint32_t element;  // texel of the element; 0xffffffff on the ground
+    int facet;              // as DecodedHit::facet
+    float normal[3];
+};
+
+// What the shader meets along each ray: one pixel of a float target per ray.
+Result<std::vector<ShadedHit>> shade_rays(const PackedTextures& textures, const PathDetail& detail,
+                                          std::span<const PatternRay> rays, Backend backend = Backend::osmesa);
+
+// Vendor, renderer and version of the backend's context, for reports.
+Result<std::string> describe_backend(Backend backend);
+
+}  // namespace burin
