@@ -1,0 +1,58 @@
+// Stage vectorize: turns a height map into paths with cross-sections.
+//
+//     HeightMap --[vectorize_map]--> Vectorized (a Pattern and what is known about it)
+//
+// Grooves and ridges become centre lines with a symmetric or asymmetric profile; plateaus become closed step paths, or
+// step paths that end on each other. A groove that crosses another stays one path. Chains are fitted by `fit_curve`,
+// profiles are measured across the whole path, averaged robustly, and shared between paths of equal section.
+// What the paths do not explain is left to the fallback maps.
+//
+// Source: [2010] 4.1 and 6 (vectorizing an artist's displacement map); DESIGN 3.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include <burin/heightmap.hpp>
+#include <burin/pattern.hpp>
+#include <burin/result.hpp>
+
+namespace burin {
+
+// Called with a stage's name and the fraction done; returning false stops the work with `invalid_argument`.
+using Progress = std::function<bool(std::string_view stage, double fraction)>;
+
+enum class WrapChoice : std::uint8_t { automatic, repeat, clamp };  // automatic: repeat when opposite borders match
+
+struct VectorizeOptions {
+    Vec2 size{1.0, 1.0};   // metres per uv unit, both > 0; size.x / size.y equals width / height of the map within 1 %
+    double depth = 0.01;   // metres from white to black, > 0
+    WrapChoice wrap = WrapChoice::automatic;
+    // Greatest distance of a fitted curve from the traced points, texels; 0 chooses it from the map's grain and the
+    // byte budget. Range [0, 8].
+    double tolerance = 0.0;
+    // Explained share below which a map counts as not path-like; range [0, 1].
+    double path_like_share = 0.35;
+    // Elements the paths may have, 0: as many as keep the textures under 1/16 of the map's 8-bit size.
+    int most_elements = 0;
+    int threads = 0;  // 0: all cores; the result does not depend on it
+};
+
+struct Vectorized {
+    Pattern pattern;
+    double noise = 0.0;               // standard deviation of the grain, of the map's range
+    double tolerance = 0.0;           // used for fitting, texels
+    double explained = 0.0;           // by the paths alone, before packing; DESIGN 7
+    bool path_like = true;
+    double path_length_texels = 0.0;  // of all paths together
+};
+
+// Requires: a map of at least 1 x 1 texels with values in [0, 1].
+// Ensures: a map without features, or one that is not path-like, gives a pattern that `resolve_pattern` accepts, with no
+// path or few; the result is the same for any number of threads.
+// Fails with invalid_argument when an option is out of its range.
+// Cost: about linear in texels; 1 to 3 seconds for 1024 x 1024 on two cores.
+Result<Vectorized> vectorize_map(const HeightMap& map, const VectorizeOptions& options = {},
+                                 const Progress& progress = {});
+
+}  // namespace burin

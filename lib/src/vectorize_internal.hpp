@@ -1,0 +1,89 @@
+// Shared by the parts of stage vectorize. Lengths are texels, heights map values 0..1, unless a name says otherwise.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <burin/geometry.hpp>
+#include <burin/image.hpp>
+#include <burin/vectorize.hpp>
+
+namespace burin::vectorizing {
+
+// The map's lattice: neighbours continue over the border when the map tiles, and do not exist there otherwise.
+struct Lattice {
+    int width = 0;
+    int height = 0;
+    bool wrap = false;
+
+    static int modulo(int a, int n) {
+        const int m = a % n;
+        return m < 0 ? m + n : m;
+    }
+    // Index of the texel, or -1 outside of a map that does not tile.
+    int index(int x, int y) const {
+        if (x >= 0 && y >= 0 && x < width && y < height) return y * width + x;
+        return wrap ? modulo(y, height) * width + modulo(x, width) : -1;
+    }
+    // Index of the nearest texel: border values continue outside of a map that does not tile.
+    int nearest(int x, int y) const {
+        if (x >= 0 && y >= 0 && x < width && y < height) return y * width + x;
+        if (wrap) return modulo(y, height) * width + modulo(x, width);
+        x = x < 0 ? 0 : x >= width ? width - 1 : x;
+        y = y < 0 ? 0 : y >= height ? height - 1 : y;
+        return y * width + x;
+    }
+    int size() const { return width * height; }
+};
+
+// Bilinear value at a point of texel space (sample centres at half integers).
+float sample(const Image& image, const Lattice& lattice, Vec2 p);
+
+enum class ChainKind : std::uint8_t { groove, ridge, step };
+
+// What the end of a chain is tied to; the fit pins such ends.
+enum class EndTie : std::uint8_t { free, node, chain, border };
+
+// A traced feature before fitting: ordered sub-texel points in unwrapped coordinates.
+struct Chain {
+    ChainKind kind = ChainKind::groove;
+    std::vector<Vec2> points;
+    bool closed = false;
+    double half_width = 0.0;  // of a line, at half its height
+    double contrast = 0.0;    // height of the line or of the step
+    EndTie start_tie = EndTie::free;
+    EndTie end_tie = EndTie::free;
+    std::uint32_t left_region = 0, right_region = 0;  // index into Regions::level; equal for lines
+    Vec2 winding;                                     // p(end) - p(start) of a closed chain: a multiple of the tile
+};
+
+// Labels of the map's plateaus.
+struct Regions {
+    std::vector<std::uint32_t> label;  // per texel
+    std::vector<double> level;         // per region
+    std::vector<std::uint32_t> area;   // texels, per region
+};
+
+// Standard deviation of the map's grain, robust against edges.
+double estimate_noise(const Image& map, const Lattice& lattice);
+
+// Exact Euclidean distance of every texel with mask != 0 to the nearest texel with mask == 0.
+std::vector<float> distance_inside(const std::vector<std::uint8_t>& mask, const Lattice& lattice);
+
+// Thins a mask to lines one texel wide that keep its topology.
+void thin_mask(std::vector<std::uint8_t>& mask, const Lattice& lattice);
+
+// Grooves or ridges narrower than twice `radius`: centre lines with junctions resolved into long chains. What the
+// chains stand for is erased from the map, so that plateaus and lines of the other sign can be looked for in the rest.
+// A chain that explains less than a little of `energy`, the map's whole sum of squares, is left out.
+std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
+                               double energy);
+
+// Sum of squared responses: how much of the map is grooves (or ridges) narrower than twice `radius`.
+double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise);
+
+// Plateaus, and the step contours between them. Regions that hold less than a little of `energy` join a neighbour.
+Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double energy);
+std::vector<Chain> trace_steps(const Image& map, const Lattice& lattice, const Regions& regions);
+
+}  // namespace burin::vectorizing

@@ -1,0 +1,371 @@
+// Joins strands at nodes: a line that crosses another stays one chain, the rest become corners, T ends or stars.
+#include "vectorize_skeleton.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace burin::vectorizing {
+namespace {
+
+// One end of a strand at a node, in the node's frame (its position is the origin).
+struct Arm {
+    int strand = 0;
+    int end = 0;       // 0 front, 1 back
+    Vec2 foot;         // a point of the fitted end line, near the node
+    Vec2 direction;    // unit, towards the node
+    double half_width = 0.0, contrast = 0.0;
+    int partner = -1;  // index of the arm that continues it
+    bool cornered = false;
+    bool tied = false;
+    Vec2 target;       // where the chain ends, or the corner, in the node's frame
+    EndTie tie = EndTie::node;
+};
+
+struct Joint {
+    std::vector<Arm> arms;
+};
+
+Vec2 tile_shift(Vec2 p, Vec2 target, const Lattice& lattice) {
+    if (!lattice.wrap) return {0, 0};
+    return {-lattice.width * std::round((p.x - target.x) / lattice.width),
+            -lattice.height * std::round((p.y - target.y) / lattice.height)};
+}
+
+// Total least squares line through the strand's points nearest to the given end.
+Arm make_arm(const Strand& strand, int index, int end, const SkeletonNode& node, const Lattice& lattice) {
+    Arm arm;
+    arm.strand = index;
+    arm.end = end;
+    arm.half_width = strand.half_width;
+    arm.contrast = strand.contrast;
+    const std::vector<Vec2>& source = strand.points.size() >= 2 ? strand.points : strand.texels;
+    const double span = std::max(6.0, 4.0 * strand.half_width);
+    std::vector<Vec2> near;
+    const std::size_t n = source.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec2 p = source[end == 0 ? k : n - 1 - k];
+        // Points were dropped around corners and other nodes: what lies behind such a gap has another direction.
+        if (near.size() >= 2 && length(p - near.back()) > 2.5) break;
+        if (near.size() >= 3 && length(p - near.front()) > span) break;
+        near.push_back(p);
+    }
+    Vec2 mean;
+    for (const Vec2 p : near) mean = mean + p;
+    mean = mean * (1.0 / near.size());
+    double xx = 0, xy = 0, yy = 0;
+    for (const Vec2 p : near) {
+        const Vec2 d = p - mean;
+        xx += d.x * d.x;
+        xy += d.x * d.y;
+        yy += d.y * d.y;
+    }
+    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    Vec2 direction{std::cos(angle), std::sin(angle)};
+    const Vec2 shift = tile_shift(near.front(), node.position, lattice);
+    const Vec2 foot = mean + shift - node.position;
+    Vec2 outward = near.size() > 1 ? near.front() - near.back() : -foot;
+    if (dot(outward, outward) == 0.0) outward = -foot;
+    if (dot(direction, outward) < 0.0) direction = -direction;
+    arm.direction = near.size() > 1 ? direction : unit(-foot);
+    arm.foot = foot;
+    return arm;
+}
+
+bool intersect(const Arm& a, const Arm& b, Vec2& point) {
+    const double d = cross(a.direction, b.direction);
+    if (std::fabs(d) < 0.08) return false;
+    const double s = cross(b.foot - a.foot, b.direction) / d;
+    point = a.foot + a.direction * s;
+    return true;
+}
+
+// How badly two arms continue each other: turning angle in radians plus offset; above 1 they do not.
+double continuation_cost(const Arm& a, const Arm& b) {
+    const double turn = std::acos(std::clamp(-dot(a.direction, b.direction), -1.0, 1.0));
+    const Vec2 between = b.foot - a.foot;
+    const double offset = std::max(std::fabs(cross(a.direction, between)), std::fabs(cross(b.direction, between)));
+    const double allowed = 0.35 * std::max(a.half_width, b.half_width) + 0.6 + 0.12 * length(between);
+    const double width_ratio = (std::max(a.half_width, b.half_width) + 0.5) / (std::min(a.half_width, b.half_width) + 0.5);
+    const double contrast_ratio = std::max(a.contrast, b.contrast) / std::max(1e-6, std::min(a.contrast, b.contrast));
+    if (turn > 0.5 || offset > allowed || width_ratio > 1.6 || contrast_ratio > 2.0) return 2.0;
+    return turn / 0.5 * 0.5 + offset / allowed * 0.5;
+}
+
+void pair_through(Joint& joint) {
+    struct Candidate {
+        double cost;
+        int a, b;
+    };
+    std::vector<Candidate> candidates;
+    for (int a = 0; a < static_cast<int>(joint.arms.size()); ++a)
+        for (int b = a + 1; b < static_cast<int>(joint.arms.size()); ++b) {
+            const double cost = continuation_cost(joint.arms[a], joint.arms[b]);
+            if (cost <= 1.0) candidates.push_back({cost, a, b});
+        }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& p, const Candidate& q) { return p.cost < q.cost; });
+    for (const Candidate& c : candidates)
+        if (joint.arms[c.a].partner < 0 && joint.arms[c.b].partner < 0) {
+            joint.arms[c.a].partner = c.b;
+            joint.arms[c.b].partner = c.a;
+        }
+}
+
+// A free arm runs into the nearest line that goes through the node.
+bool tie_to_through(Joint& joint, Arm& arm, double radius) {
+    double nearest = 4.0 * radius + 4.0;
+    bool found = false;
+    for (const Arm& through : joint.arms) {
+        Vec2 point;
+        if (through.partner < 0 || through.cornered || !intersect(arm, through, point)) continue;
+        if (length(point) < nearest) {
+            nearest = length(point);
+            arm.target = point;
+            found = true;
+        }
+    }
+    arm.tie = EndTie::chain;
+    arm.tied = found;
+    return found;
+}
+
+void tie_rest(Joint& joint, double radius) {
+    std::vector<Arm*> open;
+    for (Arm& arm : joint.arms)
+        if (arm.partner < 0 && !tie_to_through(joint, arm, radius)) open.push_back(&arm);
+    if (open.empty()) return;
+    const double limit = 4.0 * radius + 4.0;
+    if (open.size() == 2) {
+        Vec2 point;
+        if (intersect(*open[0], *open[1], point) && length(point) < limit) {
+            for (Arm* arm : open) {
+                arm->cornered = true;
+                arm->target = point;
+            }
+            open[0]->partner = static_cast<int>(open[1] - joint.arms.data());
+            open[1]->partner = static_cast<int>(open[0] - joint.arms.data());
+            return;
+        }
+    }
+    if (open.size() == 1) {  // nothing else is here: a free end after all
+        open[0]->tie = EndTie::free;
+        return;
+    }
+    // Star: the point nearest to all end lines.
+    double a = 0, b = 0, c = 0, u = 0, v = 0;
+    for (const Arm* arm : open) {
+        const Vec2 n = normal_of(arm->direction);
+        const double d = dot(n, arm->foot);
+        a += n.x * n.x;
+        b += n.x * n.y;
+        c += n.y * n.y;
+        u += n.x * d;
+        v += n.y * d;
+    }
+    const double det = a * c - b * b;
+    Vec2 star;
+    if (std::fabs(det) > 0.05) star = {(c * u - b * v) / det, (a * v - b * u) / det};
+    if (length(star) > limit) star = {};
+    for (Arm* arm : open) {
+        arm->tie = EndTie::node;
+        arm->tied = true;
+        arm->target = star;
+    }
+}
+
+struct Graph {
+    const Skeleton& skeleton;
+    const Lattice& lattice;
+    std::vector<Joint> joints;                     // per node
+    std::vector<std::array<std::array<int, 2>, 2>> arm_of;  // strand, end -> (node, arm)
+};
+
+Graph make_graph(const Skeleton& skeleton, const Lattice& lattice) {
+    Graph graph{skeleton, lattice, std::vector<Joint>(skeleton.nodes.size()), {}};
+    graph.arm_of.assign(skeleton.strands.size(), {{{-1, -1}, {-1, -1}}});
+    for (std::size_t s = 0; s < skeleton.strands.size(); ++s) {
+        const Strand& strand = skeleton.strands[s];
+        if (strand.gone || strand.loop) continue;
+        for (int end = 0; end < 2; ++end) {
+            const int n = strand.node[end];
+            if (n < 0) continue;
+            graph.arm_of[s][end] = {n, static_cast<int>(graph.joints[n].arms.size())};
+            graph.joints[n].arms.push_back(make_arm(strand, static_cast<int>(s), end, skeleton.nodes[n], lattice));
+        }
+    }
+    for (std::size_t n = 0; n < graph.joints.size(); ++n) {
+        pair_through(graph.joints[n]);
+        tie_rest(graph.joints[n], skeleton.nodes[n].radius);
+    }
+    return graph;
+}
+
+const Arm* arm_at(const Graph& graph, int strand, int end) {
+    const auto [n, k] = graph.arm_of[strand][end];
+    return n < 0 ? nullptr : &graph.joints[n].arms[k];
+}
+
+// A fixed end or corner that is nearer than the points kept would make the chain turn back: such points go.
+void drop_behind(std::vector<Vec2>& points, Vec2 target, Vec2 direction) {
+    while (points.size() > 2 && dot(points.back() - target, direction) > -0.5) points.pop_back();
+}
+
+void append_strand(std::vector<Vec2>& chain, const Strand& strand, bool reversed, const Lattice& lattice,
+                   Vec2 entry, bool has_entry) {
+    std::vector<Vec2> points = strand.points;
+    if (reversed) std::reverse(points.begin(), points.end());
+    if (points.empty()) return;
+    const Vec2 anchor = has_entry ? entry : chain.empty() ? points.front() : chain.back();
+    const Vec2 shift = tile_shift(points.front(), anchor, lattice);
+    for (const Vec2 p : points) chain.push_back(p + shift);
+}
+
+struct Builder {
+    const Graph& graph;
+    std::vector<std::uint8_t> used;
+
+    // Follows partners from `strand`, entered at `entry_end`, and returns the chain.
+    Chain follow(int strand, int entry_end, ChainKind kind) {
+        Chain chain;
+        chain.kind = kind;
+        double weight = 0.0;
+        int s = strand, entry = entry_end;
+        const Arm* first = arm_at(graph, s, entry);
+        if (first && first->partner < 0 && first->tied) begin_at(chain, *first);
+        bool have_corner = false;
+        Vec2 corner;
+        for (;;) {
+            const Strand& current = graph.skeleton.strands[s];
+            used[s] = 1;
+            if (have_corner) chain.points.push_back(corner);
+            append_strand(chain.points, current, entry == 1, graph.lattice, corner, have_corner);
+            const double w = std::max<double>(1.0, static_cast<double>(current.points.size()));
+            chain.half_width += w * current.half_width;
+            chain.contrast += w * current.contrast;
+            weight += w;
+            const Arm* arm = arm_at(graph, s, 1 - entry);
+            if (!arm) {
+                chain.end_tie = EndTie::free;
+                break;
+            }
+            if (arm->partner < 0) {
+                finish_at(chain, *arm);
+                break;
+            }
+            const int node = graph.arm_of[s][1 - entry][0];
+            const Arm& next = graph.joints[node].arms[arm->partner];
+            have_corner = arm->cornered;
+            if (have_corner) {
+                corner = place(chain, *arm, node);
+                drop_behind(chain.points, corner, arm->direction);
+            }
+            if (used[next.strand]) {
+                chain.closed = true;
+                if (have_corner) chain.points.push_back(corner);
+                break;
+            }
+            s = next.strand;
+            entry = next.end;
+        }
+        chain.half_width /= weight;
+        chain.contrast /= weight;
+        return chain;
+    }
+
+    Vec2 place(const Chain& chain, const Arm& arm, int node) const {
+        const Vec2 p = graph.skeleton.nodes[node].position + arm.target;
+        return chain.points.empty() ? p : p + tile_shift(p, chain.points.back(), graph.lattice);
+    }
+    void begin_at(Chain& chain, const Arm& arm) {
+        const int node = graph.arm_of[arm.strand][arm.end][0];
+        chain.points.push_back(graph.skeleton.nodes[node].position + arm.target);
+        chain.start_tie = arm.tie;
+    }
+    void finish_at(Chain& chain, const Arm& arm) {
+        if (!arm.tied) {
+            chain.end_tie = EndTie::free;
+            return;
+        }
+        const int node = graph.arm_of[arm.strand][arm.end][0];
+        const Vec2 p = place(chain, arm, node);
+        drop_behind(chain.points, p, arm.direction);
+        chain.points.push_back(p);
+        chain.end_tie = arm.tie;
+    }
+};
+
+// The visible end of a line lies where its response falls to half; a hip cap puts the path's end half a width before.
+void settle_free_end(std::vector<Vec2>& points, const Chain& chain, const Image& response, const Lattice& lattice) {
+    if (points.size() < 2) return;
+    const std::size_t n = points.size();
+    const std::size_t back = std::min<std::size_t>(n - 1, std::max<std::size_t>(4, static_cast<std::size_t>(2 * chain.half_width)));
+    const Vec2 direction = unit(points[n - 1] - points[n - 1 - back]);
+    const double half = 0.5 * chain.contrast;
+    double t = -chain.half_width;
+    const double furthest = 4.0 * chain.half_width + 8.0;
+    for (; t < furthest; t += 0.25)
+        if (t >= 0.0 && sample(response, lattice, points[n - 1] + direction * t) < half) break;
+    const Vec2 end = points[n - 1] + direction * (t - 0.125 - chain.half_width);
+    while (points.size() > 2 && dot(points.back() - end, direction) > -0.25) points.pop_back();
+    if (dot(end - points.back(), direction) > 0.0) points.push_back(end);
+}
+
+void settle_ends(Chain& chain, const Image& response, const Lattice& lattice) {
+    if (chain.closed) return;
+    if (chain.end_tie == EndTie::free) settle_free_end(chain.points, chain, response, lattice);
+    if (chain.start_tie == EndTie::free) {
+        std::reverse(chain.points.begin(), chain.points.end());
+        settle_free_end(chain.points, chain, response, lattice);
+        std::reverse(chain.points.begin(), chain.points.end());
+    }
+}
+
+}  // namespace
+
+std::vector<Chain> join_strands(const Skeleton& skeleton, const Image& response, const Lattice& lattice,
+                                ChainKind kind) {
+    const Graph graph = make_graph(skeleton, lattice);
+    Builder builder{graph, std::vector<std::uint8_t>(skeleton.strands.size(), 0)};
+    std::vector<Chain> chains;
+    const auto add = [&](Chain chain) {
+        if (chain.points.size() >= 2) chains.push_back(std::move(chain));
+    };
+    for (std::size_t s = 0; s < skeleton.strands.size(); ++s) {  // chains with two ends, from either end
+        const Strand& strand = skeleton.strands[s];
+        if (strand.gone || strand.loop || builder.used[s]) continue;
+        for (int end = 0; end < 2; ++end) {
+            const Arm* arm = arm_at(graph, static_cast<int>(s), end);
+            if (arm && arm->partner >= 0) continue;
+            add(builder.follow(static_cast<int>(s), end, kind));
+            break;
+        }
+    }
+    for (std::size_t s = 0; s < skeleton.strands.size(); ++s) {  // what is left closes on itself
+        const Strand& strand = skeleton.strands[s];
+        if (strand.gone || builder.used[s]) continue;
+        if (!strand.loop) {
+            add(builder.follow(static_cast<int>(s), 0, kind));
+            continue;
+        }
+        Chain chain;
+        chain.kind = kind;
+        chain.closed = true;
+        chain.points = strand.points;
+        chain.half_width = strand.half_width;
+        chain.contrast = strand.contrast;
+        add(std::move(chain));
+    }
+    for (Chain& chain : chains) {
+        settle_ends(chain, response, lattice);
+        if (chain.closed) {
+            const Vec2 gap = chain.points.front() - chain.points.back();
+            const Vec2 home = gap + tile_shift(gap, {0, 0}, lattice);
+            chain.winding = home - gap;
+            chain.winding = -chain.winding;
+        }
+    }
+    return chains;
+}
+
+}  // namespace burin::vectorizing

@@ -1,0 +1,331 @@
+// Which chain every texel belongs to, and the mean section of each chain.
+#include "vectorize_profiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include <burin/fit.hpp>
+
+namespace burin::vectorizing {
+namespace {
+
+constexpr std::uint32_t kNobody = 0xffffffffu;
+
+// The nearest chain of a texel, and the signed offset from it.
+struct Owner {
+    float distance = 1e9f;
+    float offset = 0.0f;
+    std::uint32_t chain = kNobody;
+    bool beyond = false;  // past an open end, where the section does not hold
+};
+
+struct Piece {
+    Vec2 a, b;
+    bool first = false, last = false;  // at an open end of the chain
+};
+
+std::vector<Piece> flatten(const FittedChain& fitted) {
+    std::vector<Piece> pieces;
+    for (const Element& e : fitted.elements) {
+        int n = 1;
+        if (e.kind == ElementKind::quadratic) {
+            const double bend = length(e.p0 - 2.0 * e.p1 + e.p2);
+            n = std::clamp(static_cast<int>(std::ceil(std::sqrt(bend / (4.0 * 0.02)))), 1, 64);
+        }
+        for (int k = 0; k < n; ++k)
+            pieces.push_back({point_at(e, double(k) / n), point_at(e, double(k + 1) / n), false, false});
+    }
+    if (!fitted.chain.closed && !pieces.empty()) {
+        pieces.front().first = true;
+        pieces.back().last = true;
+    }
+    return pieces;
+}
+
+void claim_piece(std::vector<Owner>& owners, const Lattice& lattice, const Piece& piece, std::uint32_t chain,
+                 double reach) {
+    const Vec2 d = piece.b - piece.a;
+    const double l = length(d);
+    if (l == 0.0) return;
+    const Vec2 t = d * (1.0 / l), n = normal_of(t);
+    const int y0 = static_cast<int>(std::floor(std::min(piece.a.y, piece.b.y) - reach));
+    const int y1 = static_cast<int>(std::ceil(std::max(piece.a.y, piece.b.y) + reach));
+    for (int y = y0; y <= y1; ++y) {
+        // Columns of this row within reach of the piece: its box would be wasteful for long diagonals.
+        double low = 1e300, high = -1e300;
+        const double ya = y + 0.5 - reach, yb = y + 0.5 + reach;
+        for (const double s : {0.0, 1.0}) {
+            const Vec2 p = piece.a + d * s;
+            if (p.y >= ya && p.y <= yb) {
+                low = std::min(low, p.x);
+                high = std::max(high, p.x);
+            }
+        }
+        if (d.y != 0.0)
+            for (const double edge : {ya, yb}) {
+                const double s = (edge - piece.a.y) / d.y;
+                if (s < 0.0 || s > 1.0) continue;
+                low = std::min(low, piece.a.x + d.x * s);
+                high = std::max(high, piece.a.x + d.x * s);
+            }
+        if (low > high) continue;
+        const int x0 = static_cast<int>(std::floor(low - reach)), x1 = static_cast<int>(std::ceil(high + reach));
+        for (int x = x0; x <= x1; ++x) {
+            const int i = lattice.index(x, y);
+            if (i < 0) continue;
+            const Vec2 q = Vec2{x + 0.5, y + 0.5} - piece.a;
+            const double along = dot(q, t), across = dot(q, n);
+            const double past = along < 0.0 ? -along : along > l ? along - l : 0.0;
+            const double distance = past > 0.0 ? std::hypot(past, across) : std::fabs(across);
+            Owner& owner = owners[i];
+            if (distance > reach || distance >= owner.distance) continue;
+            owner.distance = static_cast<float>(distance);
+            owner.chain = chain;
+            owner.offset = static_cast<float>(past > 0.0 ? (across < 0.0 ? -distance : distance) : across);
+            owner.beyond = past > 0.25 && ((along < 0.0 && piece.first) || (along > l && piece.last));
+        }
+    }
+}
+
+std::vector<Owner> find_owners(const std::vector<FittedChain>& chains, const Lattice& lattice, double reach) {
+    std::vector<Owner> owners(static_cast<std::size_t>(lattice.size()));
+    for (std::size_t c = 0; c < chains.size(); ++c)
+        for (const Piece& piece : flatten(chains[c]))
+            claim_piece(owners, lattice, piece, static_cast<std::uint32_t>(c), reach);
+    return owners;
+}
+
+// Mean of the middle 60 %: texels of crossing lines and specks do not count.
+double trimmed_mean(float* first, float* last) {
+    std::sort(first, last);
+    const std::ptrdiff_t n = last - first, cut = n / 5;
+    double sum = 0.0;
+    for (const float* v = first + cut; v != last - cut; ++v) sum += *v;
+    return sum / static_cast<double>(n - 2 * cut);
+}
+
+// The level of a region is what its texels far from any path have; a soft ramp along its rim belongs to the profiles.
+void settle_levels(Regions& regions, const Image& map, const std::vector<Owner>& owners, double reach) {
+    const std::size_t count = regions.level.size();
+    std::vector<float> furthest(count, 0.0f);
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+        float& f = furthest[regions.label[i]];
+        f = std::max(f, std::min(owners[i].distance, static_cast<float>(reach)));
+    }
+    std::vector<std::vector<float>> values(count);
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+        const std::uint32_t r = regions.label[i];
+        if (owners[i].distance >= 0.6f * furthest[r]) values[r].push_back(map.texels[i]);
+    }
+    for (std::size_t r = 0; r < count; ++r)
+        if (!values[r].empty())
+            regions.level[r] = trimmed_mean(values[r].data(), values[r].data() + values[r].size());
+}
+
+struct Section {
+    std::vector<double> height;  // relative to the level of the side
+    std::vector<double> weight;
+};
+
+// Sections of all chains: heights relative to the ground of the side, mean over the texels of each offset.
+std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, const Image& map,
+                                      const std::vector<Owner>& owners, const Regions& regions, int half) {
+    const std::size_t bins = static_cast<std::size_t>(2 * half + 1);
+    std::vector<std::uint32_t> first(chains.size() * bins + 1, 0);
+    const auto bin_of = [&](const Owner& owner) {
+        const int k = static_cast<int>(std::lround(owner.offset / kSectionStep)) + half;
+        return owner.chain * bins + static_cast<std::size_t>(std::clamp(k, 0, 2 * half));
+    };
+    const auto counts = [](const Owner& owner) { return owner.chain != kNobody && !owner.beyond; };
+    for (const Owner& owner : owners)
+        if (counts(owner)) ++first[bin_of(owner) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    std::vector<float> values(first.back());
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+        if (!counts(owners[i])) continue;
+        const Chain& chain = chains[owners[i].chain].chain;
+        const std::uint32_t region = chain.kind != ChainKind::step ? regions.label[i]
+                                     : owners[i].offset < 0.0f     ? chain.left_region
+                                                                   : chain.right_region;
+        values[next[bin_of(owners[i])]++] = map.texels[i] - static_cast<float>(regions.level[region]);
+    }
+    std::vector<Section> sections(chains.size());
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        sections[c].height.assign(bins, 0.0);
+        sections[c].weight.assign(bins, 0.0);
+        for (std::size_t k = 0; k < bins; ++k) {
+            float* begin = values.data() + first[c * bins + k];
+            float* end = values.data() + first[c * bins + k + 1];
+            if (begin == end) continue;
+            sections[c].height[k] = trimmed_mean(begin, end);
+            sections[c].weight[k] = static_cast<double>(end - begin);
+        }
+    }
+    return sections;
+}
+
+void mirror(Section& section) {
+    std::reverse(section.height.begin(), section.height.end());
+    std::reverse(section.weight.begin(), section.weight.end());
+}
+
+// Weighted root mean square difference over the offsets that both have.
+double difference(const Section& a, const Section& b) {
+    double sum = 0.0, weight = 0.0;
+    for (std::size_t k = 0; k < a.height.size(); ++k) {
+        const double w = std::min(a.weight[k], b.weight[k]);
+        const double d = a.height[k] - b.height[k];
+        sum += w * d * d;
+        weight += w;
+    }
+    return weight > 0.0 ? std::sqrt(sum / weight) : 1e300;
+}
+
+double amplitude(const Section& section) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < section.height.size(); ++k)
+        if (section.weight[k] >= 4.0) most = std::max(most, std::fabs(section.height[k]));
+    return most;
+}
+
+void add_section(Section& total, const Section& part) {
+    for (std::size_t k = 0; k < total.height.size(); ++k) {
+        const double w = total.weight[k] + part.weight[k];
+        if (w > 0.0) total.height[k] = (total.height[k] * total.weight[k] + part.height[k] * part.weight[k]) / w;
+        total.weight[k] = w;
+    }
+}
+
+void reverse_chain(FittedChain& fitted) {
+    std::reverse(fitted.elements.begin(), fitted.elements.end());
+    for (Element& e : fitted.elements) {
+        std::swap(e.p0, e.p2);
+        std::swap(e.width0, e.width1);
+        std::swap(e.height0, e.height1);
+    }
+    Chain& chain = fitted.chain;
+    std::reverse(chain.points.begin(), chain.points.end());
+    std::swap(chain.left_region, chain.right_region);
+    std::swap(chain.start_tie, chain.end_tie);
+    chain.winding = -chain.winding;
+}
+
+struct Cluster {
+    Section section;
+    ChainKind kind = ChainKind::groove;
+    double step = 0.0;  // right level - left level
+};
+
+// Longest chains first: each joins the cluster most like it, or founds one.
+std::vector<Cluster> cluster_sections(std::vector<FittedChain>& chains, std::vector<Section>& sections,
+                                      const Regions& regions, double closeness, double noise) {
+    std::vector<std::size_t> order(chains.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return chains[a].length > chains[b].length; });
+    std::vector<Cluster> clusters;
+    for (const std::size_t c : order) {
+        const Chain& chain = chains[c].chain;
+        const bool step = chain.kind == ChainKind::step;
+        const double rise = step ? regions.level[chain.right_region] - regions.level[chain.left_region] : 0.0;
+        const double allowed = closeness * std::max(amplitude(sections[c]), std::fabs(rise)) + noise;
+        double best = allowed;
+        std::size_t chosen = clusters.size();
+        bool flip = false;
+        Section mirrored = sections[c];
+        mirror(mirrored);
+        for (std::size_t k = 0; k < clusters.size(); ++k) {
+            if ((clusters[k].kind == ChainKind::step) != step || std::fabs(clusters[k].step - rise) > 1e-9) continue;
+            const double d = difference(clusters[k].section, sections[c]);
+            if (d < best) best = d, chosen = k, flip = false;
+            if (step) continue;
+            const double m = difference(clusters[k].section, mirrored);
+            if (m < 0.9 * best) best = m, chosen = k, flip = true;
+        }
+        if (flip) {
+            reverse_chain(chains[c]);
+            sections[c] = mirrored;
+        }
+        chains[c].profile = static_cast<std::uint32_t>(chosen);
+        if (chosen == clusters.size())
+            clusters.push_back({sections[c], chain.kind, rise});
+        else
+            add_section(clusters[chosen].section, sections[c]);
+    }
+    return clusters;
+}
+
+// Nearly equal levels become one level, so that steps between them can share profiles.
+void share_levels(Regions& regions, double closeness) {
+    std::vector<std::size_t> order(regions.level.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return regions.level[a] < regions.level[b]; });
+    for (std::size_t first = 0; first < order.size();) {
+        std::size_t end = first;
+        double sum = 0.0, area = 0.0;
+        while (end < order.size() && regions.level[order[end]] - regions.level[order[first]] <= closeness) {
+            sum += regions.level[order[end]] * regions.area[order[end]];
+            area += regions.area[order[end]];
+            ++end;
+        }
+        for (std::size_t k = first; k < end; ++k)
+            regions.level[order[k]] = std::clamp(sum / std::max(1.0, area), 0.0, 1.0);
+        first = end;
+    }
+}
+
+double value_at(const Profile& profile, double b, bool& inside) {
+    const auto& p = profile.points;
+    inside = b >= p.front().b && b <= p.back().b;
+    if (!inside) return b < 0.0 ? p.front().h : p.back().h;
+    for (std::size_t k = 1; k < p.size(); ++k)
+        if (b <= p[k].b) {
+            const double w = p[k].b - p[k - 1].b;
+            return w > 0.0 ? p[k - 1].h + (p[k].h - p[k - 1].h) * (b - p[k - 1].b) / w : p[k].h;
+        }
+    return p.back().h;
+}
+
+void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map,
+                   const std::vector<Owner>& owners, const Regions& regions) {
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+        if (owners[i].chain == kNobody) continue;
+        FittedChain& fitted = chains[owners[i].chain];
+        if (fitted.chain.kind == ChainKind::step) continue;
+        bool inside = false;
+        const double h = value_at(set.profiles[fitted.profile], owners[i].offset, inside);
+        if (!inside || owners[i].beyond) continue;
+        const double d = map.texels[i] - regions.level[regions.label[i]];
+        fitted.gain += d * d - (d - h) * (d - h);
+    }
+}
+
+}  // namespace
+
+ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, const Lattice& lattice,
+                            Regions& regions, const ProfileOptions& options) {
+    const std::vector<Owner> owners = find_owners(chains, lattice, options.reach);
+    settle_levels(regions, map, owners, options.reach);
+    share_levels(regions, std::max(2.0 * options.noise, 0.02));
+    const int half = static_cast<int>(std::ceil(options.reach / kSectionStep));
+    ProfileSet set;
+    double closeness = 0.04;
+    std::vector<Cluster> clusters;
+    for (int round = 0; round < 6; ++round, closeness *= 1.6) {
+        std::vector<Section> sections = measure_sections(chains, map, owners, regions, half);
+        clusters = cluster_sections(chains, sections, regions, closeness, options.noise);
+        if (clusters.size() <= options.most_profiles) break;
+    }
+    for (const Cluster& cluster : clusters)
+        set.profiles.push_back(fit_profile(cluster.section.height, cluster.section.weight, cluster.step, options.noise));
+    for (FittedChain& fitted : chains) fitted.gain = 0.0;
+    const std::vector<Owner> after = find_owners(chains, lattice, options.reach);
+    measure_gains(chains, set, map, after, regions);
+    return set;
+}
+
+}  // namespace burin::vectorizing

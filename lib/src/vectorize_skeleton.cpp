@@ -1,0 +1,325 @@
+// Skeleton graph: strands and nodes of a thinned mask, spurs pruned, split crossings joined.
+#include "vectorize_skeleton.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace burin::vectorizing {
+namespace {
+
+constexpr int kAroundX[8] = {0, 1, 1, 1, 0, -1, -1, -1};
+constexpr int kAroundY[8] = {-1, -1, 0, 1, 1, 1, 0, -1};
+
+struct Walker {
+    const std::vector<std::uint8_t>& thin;
+    const Lattice& lattice;
+    std::vector<int> node_of;          // per texel, -1 outside of nodes
+    std::vector<std::uint8_t> visited; // strand texels already taken
+
+    int at(int i, int k) const {
+        const int j = lattice.index(i % lattice.width + kAroundX[k], i / lattice.width + kAroundY[k]);
+        return j >= 0 && thin[j] ? j : -1;
+    }
+    int degree(int i) const {
+        int n = 0;
+        for (int k = 0; k < 8; ++k) n += at(i, k) >= 0;
+        return n;
+    }
+};
+
+// Texels with three or more neighbours, joined where they touch, become nodes.
+void find_nodes(Walker& walker, const std::vector<float>& thickness, Skeleton& skeleton) {
+    const int count = walker.lattice.size();
+    walker.node_of.assign(count, -1);
+    std::vector<std::uint8_t> is_node(count, 0);
+    for (int i = 0; i < count; ++i) is_node[i] = walker.thin[i] && walker.degree(i) >= 3;
+    std::vector<std::pair<int, Vec2>> stack;
+    for (int i = 0; i < count; ++i) {
+        if (!is_node[i] || walker.node_of[i] >= 0) continue;
+        SkeletonNode node;
+        const int id = static_cast<int>(skeleton.nodes.size());
+        int texels = 0;
+        stack.assign(1, {i, {i % walker.lattice.width + 0.5, i / walker.lattice.width + 0.5}});
+        walker.node_of[i] = id;
+        while (!stack.empty()) {
+            const auto [j, p] = stack.back();
+            stack.pop_back();
+            node.position = node.position + p;
+            node.radius = std::max(node.radius, static_cast<double>(thickness[j]));
+            ++texels;
+            for (int k = 0; k < 8; ++k) {
+                const int m = walker.at(j, k);
+                if (m < 0 || !is_node[m] || walker.node_of[m] >= 0) continue;
+                walker.node_of[m] = id;
+                stack.push_back({m, p + Vec2{double(kAroundX[k]), double(kAroundY[k])}});
+            }
+        }
+        node.position = node.position * (1.0 / texels);
+        skeleton.nodes.push_back(node);
+    }
+}
+
+// Walks from texel `first` away from node `from` (or from a free end, -1) to the next node or end.
+Strand walk_strand(Walker& walker, int first, Vec2 start, int from) {
+    Strand strand;
+    strand.node[0] = from;
+    int current = first;
+    Vec2 p = start;
+    for (;;) {
+        walker.visited[current] = 1;
+        strand.texels.push_back(p);
+        int next = -1, next_k = 0, node = -1;
+        for (int k = 0; k < 8; ++k) {
+            const int j = walker.at(current, k);
+            if (j < 0) continue;
+            if (walker.node_of[j] >= 0) {
+                // The first texels touch the node they came from; returning to it later closes a loop on it.
+                if (walker.node_of[j] != from || strand.texels.size() > 3) node = walker.node_of[j];
+            } else if (!walker.visited[j] && (next < 0 || k % 2 == 0)) {
+                next = j;
+                next_k = k;
+            }
+        }
+        if (node >= 0) {
+            strand.node[1] = node;
+            return strand;
+        }
+        if (next < 0) return strand;
+        p = p + Vec2{double(kAroundX[next_k]), double(kAroundY[next_k])};
+        current = next;
+    }
+}
+
+Vec2 centre_of(int i, const Lattice& lattice) { return {i % lattice.width + 0.5, i / lattice.width + 0.5}; }
+
+void trace_strands(Walker& walker, Skeleton& skeleton) {
+    const Lattice& lattice = walker.lattice;
+    walker.visited.assign(lattice.size(), 0);
+    for (int i = 0; i < lattice.size(); ++i) {
+        if (walker.node_of[i] < 0) continue;
+        for (int k = 0; k < 8; ++k) {
+            const int j = walker.at(i, k);
+            if (j < 0 || walker.node_of[j] >= 0 || walker.visited[j]) continue;
+            const Vec2 start = centre_of(i, lattice) + Vec2{double(kAroundX[k]), double(kAroundY[k])};
+            skeleton.strands.push_back(walk_strand(walker, j, start, walker.node_of[i]));
+        }
+    }
+    for (int i = 0; i < lattice.size(); ++i) {
+        if (!walker.thin[i] || walker.node_of[i] >= 0 || walker.visited[i] || walker.degree(i) > 1) continue;
+        skeleton.strands.push_back(walk_strand(walker, i, centre_of(i, lattice), -1));
+    }
+    for (int i = 0; i < lattice.size(); ++i) {
+        if (!walker.thin[i] || walker.node_of[i] >= 0 || walker.visited[i]) continue;
+        Strand strand = walk_strand(walker, i, centre_of(i, lattice), -1);
+        strand.loop = strand.texels.size() > 4;
+        skeleton.strands.push_back(std::move(strand));
+    }
+}
+
+double texel_length(const Strand& strand) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < strand.texels.size(); ++i) sum += length(strand.texels[i] - strand.texels[i - 1]);
+    return sum;
+}
+
+// Shifts `p` by whole tiles to lie nearest to `target`.
+Vec2 nearest_image(Vec2 p, Vec2 target, const Lattice& lattice) {
+    if (!lattice.wrap) return p;
+    return {p.x - lattice.width * std::round((p.x - target.x) / lattice.width),
+            p.y - lattice.height * std::round((p.y - target.y) / lattice.height)};
+}
+
+// A thinned mask grows a branch into every corner of a wide line; such branches are no longer than the line is wide.
+bool prune_spurs(Skeleton& skeleton) {
+    bool changed = false;
+    for (Strand& strand : skeleton.strands) {
+        if (strand.gone || strand.loop) continue;
+        const bool free_front = strand.node[0] < 0, free_back = strand.node[1] < 0;
+        if (free_front == free_back) continue;
+        const SkeletonNode& node = skeleton.nodes[free_front ? strand.node[1] : strand.node[0]];
+        if (texel_length(strand) < 1.5 * node.radius + 1.0) {
+            strand.gone = true;
+            changed = true;
+        }
+    }
+    return changed;
+}
+
+// A wide crossing thins to two nodes with a short strand between; it is one node.
+void contract_short(Skeleton& skeleton, const Lattice& lattice) {
+    for (Strand& strand : skeleton.strands) {
+        if (strand.gone || strand.node[0] < 0 || strand.node[1] < 0) continue;
+        const int a = strand.node[0], b = strand.node[1];
+        const double radius = std::max(skeleton.nodes[a].radius, skeleton.nodes[b].radius);
+        if (texel_length(strand) > 1.4 * radius + 1.0) continue;
+        strand.gone = true;
+        if (a == b) continue;
+        const Vec2 pb = nearest_image(skeleton.nodes[b].position, skeleton.nodes[a].position, lattice);
+        skeleton.nodes[a].position = (skeleton.nodes[a].position + pb) * 0.5;
+        skeleton.nodes[a].radius = radius;
+        for (Strand& other : skeleton.strands)
+            for (int& n : other.node)
+                if (n == b) n = a;
+    }
+}
+
+// After pruning, two strands may meet at a node that nothing else touches: they are one strand.
+void merge_through(Skeleton& skeleton, const Lattice& lattice) {
+    std::vector<std::array<int, 2>> touching(skeleton.nodes.size(), {-1, -1});
+    std::vector<int> count(skeleton.nodes.size(), 0);
+    const auto recount = [&] {
+        std::fill(count.begin(), count.end(), 0);
+        for (std::size_t s = 0; s < skeleton.strands.size(); ++s) {
+            if (skeleton.strands[s].gone) continue;
+            for (const int n : skeleton.strands[s].node)
+                if (n >= 0) {
+                    if (count[n] < 2) touching[n][count[n]] = static_cast<int>(s);
+                    ++count[n];
+                }
+        }
+    };
+    recount();
+    for (std::size_t n = 0; n < skeleton.nodes.size(); ++n) {
+        if (count[n] != 2) continue;
+        const int a = touching[n][0], b = touching[n][1];
+        if (a == b) {  // a loop that starts and ends here
+            Strand& strand = skeleton.strands[a];
+            strand.loop = true;
+            strand.node[0] = strand.node[1] = -1;
+            continue;
+        }
+        Strand& first = skeleton.strands[a];
+        Strand& second = skeleton.strands[b];
+        const int here = static_cast<int>(n);
+        if (first.node[1] != here) {
+            std::reverse(first.texels.begin(), first.texels.end());
+            std::swap(first.node[0], first.node[1]);
+        }
+        if (second.node[0] != here) {
+            std::reverse(second.texels.begin(), second.texels.end());
+            std::swap(second.node[0], second.node[1]);
+        }
+        const Vec2 shift = nearest_image(second.texels.front(), first.texels.back(), lattice) - second.texels.front();
+        for (const Vec2 p : second.texels) first.texels.push_back(p + shift);
+        first.node[1] = second.node[1];
+        second.gone = true;
+        recount();
+    }
+}
+
+}  // namespace
+
+Skeleton trace_skeleton(const std::vector<std::uint8_t>& thin, const std::vector<float>& thickness,
+                        const Lattice& lattice) {
+    Skeleton skeleton;
+    Walker walker{thin, lattice, {}, {}};
+    find_nodes(walker, thickness, skeleton);
+    trace_strands(walker, skeleton);
+    for (int round = 0; round < 3 && prune_spurs(skeleton); ++round) merge_through(skeleton, lattice);
+    contract_short(skeleton, lattice);
+    merge_through(skeleton, lattice);
+    return skeleton;
+}
+
+namespace {
+
+struct Section {
+    bool found = false;
+    double centre = 0.0, half_width = 0.0, peak = 0.0;
+};
+
+// Half-height edges of the response along the normal at p.
+Section measure_section(const Image& response, const Lattice& lattice, Vec2 p, Vec2 normal, double reach) {
+    constexpr double kStep = 0.25;
+    const int n = static_cast<int>(std::ceil(reach / kStep));
+    std::vector<float> values(static_cast<std::size_t>(2 * n + 1));
+    for (int k = -n; k <= n; ++k) values[k + n] = sample(response, lattice, p + normal * (k * kStep));
+    int best = n;
+    const int search = std::min(n, static_cast<int>(1.5 / kStep));
+    for (int k = -search; k <= search; ++k)
+        if (values[k + n] > values[best]) best = k + n;
+    Section section;
+    section.peak = values[best];
+    const float half = values[best] * 0.5f;
+    int left = best, right = best;
+    while (left > 0 && values[left - 1] > half) --left;
+    while (right < 2 * n && values[right + 1] > half) ++right;
+    if (left == 0 || right == 2 * n || half <= 0.0f) return section;
+    const double a = left - (values[left] - half) / (values[left] - values[left - 1]);
+    const double b = right + (values[right] - half) / (values[right] - values[right + 1]);
+    section.found = true;
+    section.centre = (0.5 * (a + b) - n) * kStep;
+    section.half_width = 0.5 * (b - a) * kStep;
+    return section;
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+Vec2 smoothed(const std::vector<Vec2>& points, std::ptrdiff_t i, std::ptrdiff_t reach, bool loop) {
+    const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(points.size());
+    Vec2 sum;
+    double weight = 0.0;
+    for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+        const std::ptrdiff_t j = i + k;
+        if (j < 0 || j >= n) {
+            if (!loop) continue;
+        }
+        if (loop && (j < 0 || j >= n)) continue;  // loops are opened: their seam is smoothed one-sidedly
+        sum = sum + points[j];
+        weight += 1.0;
+    }
+    return sum * (1.0 / weight);
+}
+
+void measure_strand(Strand& strand, const Image& response, const Lattice& lattice,
+                    const std::vector<SkeletonNode>& nodes, double reach) {
+    const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(strand.texels.size());
+    std::vector<Vec2> smooth(strand.texels.size());
+    for (std::ptrdiff_t i = 0; i < n; ++i) smooth[i] = smoothed(strand.texels, i, 2, strand.loop);
+    std::vector<Section> sections(strand.texels.size());
+    std::vector<Vec2> centres(strand.texels.size());
+    std::vector<double> widths, peaks;
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const std::ptrdiff_t a = std::max<std::ptrdiff_t>(0, i - 3), b = std::min(n - 1, i + 3);
+        const Vec2 normal = normal_of(unit(smooth[b] - smooth[a]));
+        sections[i] = measure_section(response, lattice, smooth[i], normal, reach);
+        centres[i] = smooth[i] + normal * sections[i].centre;
+        if (sections[i].found) {
+            widths.push_back(sections[i].half_width);
+            peaks.push_back(sections[i].peak);
+        }
+    }
+    strand.half_width = median(widths);
+    strand.contrast = median(peaks);
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const bool steady = sections[i].found && std::fabs(sections[i].half_width - strand.half_width) <
+                                                     0.25 * strand.half_width + 0.3;
+        bool near_node = false;
+        for (const int node : strand.node)
+            if (node >= 0) {
+                const Vec2 d = nearest_image(centres[i], nodes[node].position, lattice) - nodes[node].position;
+                near_node = near_node || length(d) < 1.3 * nodes[node].radius + 1.0;
+            }
+        if (steady && !near_node) strand.points.push_back(centres[i]);
+    }
+}
+
+}  // namespace
+
+void measure_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice) {
+    for (Strand& strand : skeleton.strands) {
+        if (strand.gone) continue;
+        double widest = 2.0;
+        for (const int node : strand.node)
+            if (node >= 0) widest = std::max(widest, skeleton.nodes[node].radius);
+        measure_strand(strand, response, lattice, skeleton.nodes, std::max(16.0, 3.0 * widest + 4.0));
+    }
+}
+
+}  // namespace burin::vectorizing

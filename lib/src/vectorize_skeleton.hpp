@@ -1,0 +1,41 @@
+// The graph of a thinned mask: strands between nodes. Part of stage vectorize.
+#pragma once
+
+#include "vectorize_internal.hpp"
+
+namespace burin::vectorizing {
+
+// A run of skeleton texels between two nodes, a node and a free end, two free ends, or a loop.
+struct Strand {
+    std::vector<Vec2> texels;   // centres, unwrapped, in order
+    std::vector<Vec2> points;   // sub-texel centre line, near nodes left out
+    int node[2] = {-1, -1};     // at the front and at the back; -1 is a free end
+    bool loop = false;
+    bool gone = false;          // pruned or contracted
+    double half_width = 0.0;    // median over the points, texels
+    double contrast = 0.0;      // median peak of the response
+};
+
+struct SkeletonNode {
+    Vec2 position;              // centre of its texels
+    double radius = 0.0;        // half-width of the mask there
+};
+
+struct Skeleton {
+    std::vector<Strand> strands;
+    std::vector<SkeletonNode> nodes;
+};
+
+// Follows the lines of a thinned mask. `thickness` is the distance to the mask's border per texel.
+// Spurs shorter than the mask is wide at their node are pruned, nodes that one crossing split are joined again.
+Skeleton trace_skeleton(const std::vector<std::uint8_t>& thin, const std::vector<float>& thickness,
+                        const Lattice& lattice);
+
+// Sub-texel centres, widths and contrasts of every strand from the response across it.
+void measure_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice);
+
+// Pairs the strands that continue each other at nodes and ties the rest.
+std::vector<Chain> join_strands(const Skeleton& skeleton, const Image& response, const Lattice& lattice,
+                                ChainKind kind);
+
+}  // namespace burin::vectorizing
