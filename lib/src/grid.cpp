@@ -1,0 +1,177 @@
+#include <burin/grid.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "grid_internal.hpp"
+#include "layout.h"
+#include "resolve_curve.hpp"
+
+namespace burin {
+namespace {
+
+using namespace gridding;
+
+// Lengths and widths of a pattern, from which list lengths at any cell size can be foretold.
+struct Feature {
+    double length, width;
+};
+
+std::vector<Feature> features_of(const ResolvedPattern& pattern) {
+    std::vector<Feature> features;
+    for (const ResolvedElement& e : pattern.elements) {
+        const auto& points = pattern.profiles[pattern.styles[e.style].profile].points;
+        double low = 0.0, high = 0.0;
+        for (const ProfilePoint& p : points) low = std::min(low, p.b), high = std::max(high, p.b);
+        features.push_back({curve::arc_length(e.element), (high - low) * 0.5 * (e.element.width0 + e.element.width1)});
+    }
+    return features;
+}
+
+double mean_width(const std::vector<Feature>& features) {
+    double area = 0.0, length = 0.0;
+    for (const Feature& f : features) area += f.length * f.width, length += f.length;
+    return length > 0.0 ? area / length : 0.0;
+}
+
+// What a size costs: work of a ray and bytes.
+struct Cost {
+    double work = 0.0, bytes = 0.0;
+    // A fourth of the bytes weighs as much as about half more work; below 16 KiB bytes hardly count.
+    double total() const { return work * std::pow(bytes + 16384.0, 0.35); }
+};
+
+// A strip of length l and width w at a random place meets (l w + (l + w) c 4 / pi + c^2) / c^2 squares of side c.
+Cost foretell(const ResolvedPattern& pattern, const std::vector<Feature>& features, double cell, double margin) {
+    const double side = cell * (1.0 + 2.0 * margin), area = pattern.size.x * pattern.size.y;
+    double refs = 0.0, seen = 0.0;
+    for (const Feature& f : features) {
+        const double touched = (f.length * f.width + (f.length + f.width) * side * 4.0 / 3.14159265358979 + side * side) / (cell * cell);
+        refs += touched;
+        seen += touched;
+    }
+    const double cells = area / (cell * cell);
+    // A slanted ray sinks through the whole relief over about one depth to the side.
+    const double visited = 1.0 + pattern.depth / cell;
+    return {visited * (1.0 + seen / cells), 8.0 * cells + 2.0 * refs};
+}
+
+struct Limits {
+    int low_cols = 1, low_rows = 1;  // fewest cells for which the copy of an element is never in doubt
+};
+
+std::string count_text(double v) { return std::to_string(v); }
+
+Status check_options(const GridOptions& options) {
+    if (!(options.cell_size >= 0.0) || !std::isfinite(options.cell_size))
+        return Error{ErrorCode::invalid_argument, "cell_size is " + count_text(options.cell_size) + "; it must be 0 or more"};
+    if (!(options.margin >= 0.0 && options.margin <= 1.0))
+        return Error{ErrorCode::invalid_argument, "margin is " + count_text(options.margin) + "; allowed is [0, 1]"};
+    if (options.threads < 0) return Error{ErrorCode::invalid_argument, "threads is negative"};
+    return Done{};
+}
+
+// A copy that acts at distance x of its midpoint is the nearest one for a cell when x + (0.5 + margin) cells < 0.5 size.
+Result<Limits> find_limits(const ResolvedPattern& pattern, const Chain& chain, double margin) {
+    if (pattern.wrap != Wrap::repeat || pattern.elements.empty()) return Limits{};
+    const Vec2 extent = farthest_extent(pattern, chain);
+    const double free_x = 0.499 - extent.x / pattern.size.x, free_y = 0.499 - extent.y / pattern.size.y;
+    const double most = static_cast<double>(BURIN_MAX_TEXTURE_SIDE);
+    if (free_x * most < 0.5 + margin || free_y * most < 0.5 + margin)
+        return Error{ErrorCode::limit_exceeded, "an element acts " + count_text(std::max(extent.x, extent.y)) +
+                                                    " m from its middle, around half of the repeating tile; shorten it"};
+    return Limits{static_cast<int>(std::ceil((0.5 + margin) / free_x)), static_cast<int>(std::ceil((0.5 + margin) / free_y))};
+}
+
+Frame frame_of(const ResolvedPattern& pattern, const Limits& limits, double cell, double margin) {
+    const auto cells = [&](double size, int low) {
+        return std::clamp(static_cast<int>(std::ceil(size / cell - 1e-9)), low, BURIN_MAX_TEXTURE_SIDE);
+    };
+    const int cols = cells(pattern.size.x, limits.low_cols), rows = cells(pattern.size.y, limits.low_rows);
+    return {pattern, cols, rows, margin, {pattern.size.x / cols, pattern.size.y / rows}};
+}
+
+// A few more columns or rows where a step would run along cell centres: then their level would hang on rounding.
+Frame with_clear_centres(const Frame& frame) {
+    int fewest = doubtful_centres(frame), cols = frame.cols, rows = frame.rows;
+    const auto grown = [&](int c, int r) {
+        return Frame{frame.pattern, c, r, frame.margin, {frame.pattern.size.x / c, frame.pattern.size.y / r}};
+    };
+    for (int more = 1; more < 25 && fewest > 0; ++more) {
+        const int c = std::min(frame.cols + more % 5, BURIN_MAX_TEXTURE_SIDE), r = std::min(frame.rows + more / 5, BURIN_MAX_TEXTURE_SIDE);
+        const int count = doubtful_centres(grown(c, r));
+        if (count < fewest) fewest = count, cols = c, rows = r;
+    }
+    return grown(cols, rows);
+}
+
+double cheapest_size(const ResolvedPattern& pattern, const GridOptions& options) {
+    const std::vector<Feature> features = features_of(pattern);
+    const double largest = std::max(pattern.size.x, pattern.size.y);
+    const double width = mean_width(features);
+    if (features.empty() || width <= 0.0) return largest;
+    const double smallest = largest / BURIN_MAX_TEXTURE_SIDE;
+    double best = 0.0, best_cost = 1e300, fallback = largest;
+    for (int i = 0; i <= 24; ++i) {
+        const double cell = std::clamp(width * std::pow(2.0, 0.25 * i - 0.5), smallest, largest);
+        const Cost cost = foretell(pattern, features, cell, options.margin);
+        fallback = cell;
+        if (options.max_bytes > 0 && cost.bytes > static_cast<double>(options.max_bytes)) continue;
+        if (cost.total() < best_cost) best_cost = cost.total(), best = cell;
+    }
+    return best > 0.0 ? best : fallback;
+}
+
+struct Fullest {
+    std::uint32_t cell = 0, count = 0;
+};
+
+Fullest fullest_cell(const std::vector<std::vector<Hit>>& hits, std::size_t cells) {
+    std::vector<std::uint32_t> counts(cells, 0);
+    for (const auto& list : hits)
+        for (const Hit& hit : list) ++counts[hit.cell];
+    Fullest fullest;
+    for (std::uint32_t k = 0; k < cells; ++k)
+        if (counts[k] > fullest.count) fullest = {k, counts[k]};
+    return fullest;
+}
+
+Error too_full(const Frame& frame, const Fullest& fullest, double fitting) {
+    const int cols = frame.cols;
+    std::string message = "cell (" + std::to_string(static_cast<int>(fullest.cell) % cols) + "," +
+                          std::to_string(static_cast<int>(fullest.cell) / cols) + ") lists " + std::to_string(fullest.count) +
+                          " elements, limit " + std::to_string(BURIN_MAX_REFS_PER_CELL) + "; ";
+    message += fitting > 0.0 ? "cell_size " + count_text(fitting) + " would fit" : "no cell size fits, too many elements act at one place";
+    return {ErrorCode::limit_exceeded, message};
+}
+
+}  // namespace
+
+Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& options) {
+    if (const Status status = check_options(options); !status.ok()) return status.error();
+    const Chain chain = find_chain(pattern);
+    const Result<Limits> limits = find_limits(pattern, chain, options.margin);
+    if (!limits.ok()) return limits.error();
+
+    const bool chosen = options.cell_size > 0.0;
+    double cell = chosen ? options.cell_size : cheapest_size(pattern, options);
+    Fullest refused;
+    std::optional<Frame> refused_frame;
+    // Smaller cells until every list fits.
+    for (int round = 0; round < 12; ++round, cell *= 0.75) {
+        const Frame frame = with_clear_centres(frame_of(pattern, *limits, cell, options.margin));
+        const auto hits = find_hits(frame, chain, options.threads);
+        const Fullest fullest = fullest_cell(hits, static_cast<std::size_t>(frame.cols) * static_cast<std::size_t>(frame.rows));
+        if (fullest.count <= BURIN_MAX_REFS_PER_CELL) {
+            if (chosen && refused_frame) return too_full(*refused_frame, refused, cell);
+            return fill_cells(frame, chain, hits);
+        }
+        if (!refused_frame) refused = fullest, refused_frame.emplace(frame);
+        if (frame.cols == BURIN_MAX_TEXTURE_SIDE && frame.rows == BURIN_MAX_TEXTURE_SIDE) break;
+    }
+    return too_full(*refused_frame, refused, 0.0);
+}
+
+}  // namespace burin

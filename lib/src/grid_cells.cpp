@@ -1,0 +1,211 @@
+// Level, height bounds, flags and skip distance of every cell.
+#include <algorithm>
+#include <cmath>
+
+#include "grid_internal.hpp"
+#include "layout.h"
+#include "resolve_chords.hpp"
+#include "resolve_curve.hpp"
+
+namespace burin::gridding {
+namespace {
+
+using resolving::Chord;
+using resolving::ChordIndex;
+using resolving::Shift;
+
+double rise_of(const ResolvedPattern& pattern, const ResolvedElement& e) {
+    const auto& points = pattern.profiles[pattern.styles[e.style].profile].points;
+    return (points.back().h - points.front().h) * e.element.height0;
+}
+
+// Point location by the nearest step element.
+class Ground {
+  public:
+    explicit Ground(const ResolvedPattern& pattern)
+        : pattern_(pattern), index_(chords(pattern, tolerance_), pattern.size, pattern.wrap == Wrap::repeat) {}
+
+    struct Answer {
+        double level, distance;
+    };
+
+    Answer at(Vec2 p) const {
+        Answer answer{pattern_.outer_level, 1e300};
+        double perpendicular = -1.0;
+        if (index_.chords().empty()) return answer;
+        index_.visit_rings(p, [&](std::uint32_t k, Shift shift) {
+            const Chord& chord = index_.chords()[k];
+            const ResolvedElement& e = pattern_.elements[chord.element];
+            const Vec2 q = p - shift * pattern_.size;
+            double along = 0.0;
+            if (resolving::segment_distance(chord.a, chord.b, q, along) > answer.distance + tolerance_) return answer.distance;
+            // The arc itself, where the chord is near enough to matter.
+            const double s = e.element.kind == ElementKind::line ? chord.s0 + along * (chord.s1 - chord.s0) : curve::nearest(e.element, q);
+            const Vec2 gap = q - curve::point(e.element, s);
+            const double across = cross(curve::tangent(e.element, s), gap), distance = length(gap);
+            const double slack = 1e-9 * distance;
+            if (distance < answer.distance - slack || (distance <= answer.distance + slack && std::abs(across) > perpendicular)) {
+                answer = {pattern_.styles[e.style].level + (across < 0.0 ? 0.0 : rise_of(pattern_, e)), distance};
+                perpendicular = std::abs(across);
+            }
+            return answer.distance;
+        });
+        return answer;
+    }
+
+  private:
+    static std::vector<Chord> chords(const ResolvedPattern& pattern, double& tolerance) {
+        tolerance = 1e-5 * std::max(pattern.size.x, pattern.size.y);
+        std::vector<Chord> result;
+        for (std::uint32_t i = 0; i < pattern.elements.size(); ++i) {
+            const ResolvedElement& e = pattern.elements[i];
+            if (!pattern.styles[e.style].step) continue;
+            const int count = curve::chord_count(e.element, tolerance);
+            for (int k = 0; k < count; ++k) {
+                const double s0 = static_cast<double>(k) / count, s1 = static_cast<double>(k + 1) / count;
+                result.push_back({curve::point(e.element, s0), curve::point(e.element, s1), s0, s1, e.path, i});
+            }
+        }
+        return result;
+    }
+
+    const ResolvedPattern& pattern_;
+    double tolerance_ = 0.0;
+    ChordIndex index_;
+};
+
+void fill_lists(const Frame& frame, const std::vector<std::vector<Hit>>& hits, CellGrid& grid) {
+    const std::size_t cells = static_cast<std::size_t>(frame.cols) * static_cast<std::size_t>(frame.rows);
+    grid.first_ref.assign(cells + 1, 0);
+    for (const auto& list : hits)
+        for (const Hit& hit : list) ++grid.first_ref[hit.cell + 1];
+    for (std::size_t i = 0; i < cells; ++i) grid.first_ref[i + 1] += grid.first_ref[i];
+    grid.refs.resize(grid.first_ref[cells]);
+    std::vector<std::uint32_t> next(grid.first_ref.begin(), grid.first_ref.end() - 1);
+    for (std::uint32_t e = 0; e < hits.size(); ++e)
+        for (const Hit& hit : hits[e]) grid.refs[next[hit.cell]++] = e;
+}
+
+void flag_steps(const std::vector<std::vector<Hit>>& hits, CellGrid& grid) {
+    grid.flags.assign(grid.first_ref.size() - 1, 0);
+    for (const auto& list : hits)
+        for (const Hit& hit : list)
+            if (hit.path_line) grid.flags[hit.cell] |= BURIN_CELL_FLAG_STEP;
+}
+
+// Neighbouring cells without a step lie in one region; the others ask.
+void fill_levels(const Frame& frame, CellGrid& grid) {
+    const Ground ground(frame.pattern);
+    const auto has_step = [&](std::size_t k) { return (grid.flags[k] & BURIN_CELL_FLAG_STEP) != 0; };
+    grid.level.assign(grid.flags.size(), 0.0);
+    const std::size_t cols = static_cast<std::size_t>(frame.cols);
+    for (int row = 0; row < frame.rows; ++row)
+        for (int col = 0; col < frame.cols; ++col) {
+            const std::size_t k = static_cast<std::size_t>(row) * cols + static_cast<std::size_t>(col);
+            if (!has_step(k) && col > 0 && !has_step(k - 1))
+                grid.level[k] = grid.level[k - 1];
+            else if (!has_step(k) && row > 0 && !has_step(k - cols))
+                grid.level[k] = grid.level[k - cols];
+            else
+                grid.level[k] = ground.at(frame.centre(col, row)).level;
+        }
+}
+
+void fill_bounds(const Frame& frame, const std::vector<std::vector<Hit>>& hits, CellGrid& grid) {
+    grid.highest = grid.lowest = grid.level;
+    for (std::size_t e = 0; e < hits.size(); ++e) {
+        const ResolvedElement& element = frame.pattern.elements[e];
+        const double level = frame.pattern.styles[element.style].level;
+        const double rise = frame.pattern.styles[element.style].step ? rise_of(frame.pattern, element) : 0.0;
+        for (const Hit& hit : hits[e]) {
+            double &high = grid.highest[hit.cell], &low = grid.lowest[hit.cell];
+            if (hit.path_line) {
+                high = std::max({high, level, level + rise});
+                low = std::min({low, level, level + rise});
+            }
+            if (hit.heights.high > -1e299) high = std::max(high, level + hit.heights.high);
+            if (hit.heights.low < 1e299) low = std::min(low, level + hit.heights.low);
+        }
+    }
+}
+
+void flag_isolated(const Chain& chain, const std::vector<std::vector<Hit>>& hits, CellGrid& grid) {
+    std::vector<char> special(grid.flags.size(), 0);
+    for (const auto& list : hits)
+        for (const Hit& hit : list)
+            if (hit.end_zone) special[hit.cell] = 1;
+    for (std::size_t k = 0; k < grid.flags.size(); ++k) {
+        const auto first = grid.refs.begin() + grid.first_ref[k], end = grid.refs.begin() + grid.first_ref[k + 1];
+        std::ptrdiff_t links = 0;
+        for (auto ref = first; ref != end; ++ref)
+            if (chain.next[*ref] != kNoElement && std::binary_search(first, end, chain.next[*ref])) ++links;
+        // n elements in one open chain have n - 1 links; a closed loop within one cell is not simple.
+        if (!special[k] && (first == end || links == end - first - 1)) grid.flags[k] |= BURIN_CELL_FLAG_ISOLATED;
+    }
+}
+
+// Chebyshev distance to the nearest cell that lists something, by sweeps until nothing changes.
+void fill_skip(const Frame& frame, CellGrid& grid) {
+    constexpr int kFar = (1 << BURIN_CELL_SKIP_BITS);
+    const int cols = frame.cols, rows = frame.rows;
+    std::vector<int> distance(grid.flags.size());
+    for (std::size_t k = 0; k < distance.size(); ++k) distance[k] = grid.first_ref[k] != grid.first_ref[k + 1] ? 0 : kFar;
+    const auto at = [&](int col, int row) -> int {
+        const bool out = col < 0 || row < 0 || col >= cols || row >= rows;
+        // What lies beyond a clamped map's border is another ground.
+        if (out && !frame.repeats()) return 0;
+        return distance[static_cast<std::size_t>((row + rows) % rows) * cols + (col + cols) % cols];
+    };
+    // Distances are at most kFar, so that many rounds of looking at the eight neighbours settle everything.
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const int order : {0, 1})
+            for (int i = 0; i < rows * cols; ++i) {
+                const int k = order == 0 ? i : rows * cols - 1 - i;
+                const int col = k % cols, row = k / cols;
+                int best = distance[k];
+                for (int dy = -1; dy <= 1; ++dy)
+                    for (int dx = -1; dx <= 1; ++dx) best = std::min(best, at(col + dx, row + dy) + 1 - (dx == 0 && dy == 0));
+                if (best < distance[k]) distance[k] = best, changed = true;
+            }
+    }
+    const int largest = frame.repeats() ? std::max(0, (std::min(cols, rows) - 1) / 2) : kFar;
+    grid.skip.resize(distance.size());
+    for (std::size_t k = 0; k < distance.size(); ++k)
+        grid.skip[k] = static_cast<std::uint8_t>(std::clamp(std::min(distance[k] - 1, largest), 0, kFar - 1));
+}
+
+}  // namespace
+
+CellGrid fill_cells(const Frame& frame, const Chain& chain, const std::vector<std::vector<Hit>>& hits) {
+    CellGrid grid;
+    grid.cols = frame.cols;
+    grid.rows = frame.rows;
+    fill_lists(frame, hits, grid);
+    flag_steps(hits, grid);
+    fill_levels(frame, grid);
+    fill_bounds(frame, hits, grid);
+    flag_isolated(chain, hits, grid);
+    fill_skip(frame, grid);
+    return grid;
+}
+
+int doubtful_centres(const Frame& frame) {
+    int count = 0;
+    for (const ResolvedElement& e : frame.pattern.elements) {
+        if (!frame.pattern.styles[e.style].step) continue;
+        const int pieces = std::max(1, static_cast<int>(4.0 * curve::arc_length(e.element) / std::min(frame.cell.x, frame.cell.y)));
+        Vec2 before = e.element.p0;
+        for (int i = 1; i <= pieces; ++i) {
+            const Vec2 p = curve::point(e.element, static_cast<double>(i) / pieces), middle = lerp(before, p, 0.5);
+            const Vec2 cell{std::floor(middle.x / frame.cell.x) + 0.5, std::floor(middle.y / frame.cell.y) + 0.5};
+            const double near = 1e-3 * std::min(frame.cell.x, frame.cell.y);
+            double along = 0.0;
+            if (resolving::segment_distance(before, p, {cell.x * frame.cell.x, cell.y * frame.cell.y}, along) < near) ++count;
+            before = p;
+        }
+    }
+    return count;
+}
+
+}  // namespace burin::gridding

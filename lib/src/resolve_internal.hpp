@@ -1,0 +1,99 @@
+// What the parts of the resolve stage share. Private to lib.
+//
+// The stage works on WorkPaths, copies of the pattern's paths whose elements may move (snapping) and split:
+//   resolve_profile.cpp  facets of a profile         resolve_input.cpp   checks, cleaning
+//   resolve_chords.*     chords in buckets, exact crossings, nearest points
+//   resolve_ends.cpp     ends that meet, T-junctions  resolve_ground.cpp  splits at steps, levels
+//   resolve_joints.cpp   priorities                   resolve_output.cpp  cutting to the tile, numbering
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <burin/resolve.hpp>
+
+#include "resolve_chords.hpp"
+
+namespace burin::resolving {
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+// Levels nearer to each other than this part of the depth count as equal.
+inline constexpr double kLevelTolerance = 1.0 / 4096.0;
+
+// One end of an open path and what it meets.
+struct PathEnd {
+    int cluster = -1;      // ends with one number meet; -1 on a closed path
+    bool on_path = false;  // lies on another path's interior: `clip` is that path's tangent
+    bool on_border = false;   // clamped maps: on the border, `clip` is its direction
+    bool outside = false;     // clamped maps: beyond the border
+    Vec2 clip;
+};
+
+struct WorkPath {
+    std::uint32_t source = 0;  // index into Pattern::paths
+    std::uint32_t profile = 0, material = 0;
+    bool closed = false, step = false;
+    double level = 0.0, right_level = 0.0;
+    double reach = 0.0;  // greatest |b| of the profile, metres
+    JoinKind join = JoinKind::mitre;
+    CapKind cap[2] = {CapKind::hip, CapKind::hip};
+    PathEnd end[2];
+
+    std::vector<Element> elements;
+    std::vector<ElementEnd> starts, ends;   // parallel to elements, once the joints are known
+    std::vector<char> region_starts;        // parallel to elements: a step's line was crossed before this element
+    std::vector<double> levels;             // parallel to elements, once the ground is known
+};
+
+struct Work {
+    const Pattern& pattern;
+    const ResolveOptions& options;
+    double snap = 0.0;       // metres
+    double tolerance = 0.0;  // metres: chords leave arcs by at most this
+    std::vector<ResolvedProfile> profiles;
+    std::vector<double> rise;  // per profile: last h - first h; 0 for grooves
+    std::vector<WorkPath> paths;
+    std::vector<Junction> junctions;
+    ResolveStats stats;
+    bool repeats() const { return pattern.wrap == Wrap::repeat; }
+};
+
+std::string position_text(Vec2 p);
+std::string path_text(std::size_t index, Vec2 p);  // "path 3 at (0.1, 0.2)"
+
+// Facets split at b = 0 (steps) and where they pass the ground of their side; which of them cut, [2010] 5.3.
+Result<ResolvedProfile> classify_profile(const Profile& profile, std::size_t index, double depth);
+
+// Checks pattern and options and fills `work` with clean paths. Lenient: drops what is in error.
+Status prepare(Work& work);
+// Counts a path in error; true when the options allow to go on without it.
+bool tolerate(Work& work, const std::string& message);
+
+// Arcs as chords, path by path in order.
+std::vector<Chord> flatten(const Work& work, bool steps_only);
+
+// Ends that meet, ends on other paths: moves them together. Bad step ends are named in `errors` by path index.
+struct PathError {
+    std::size_t path = 0;
+    std::string message;
+};
+std::vector<PathError> connect_ends(Work& work);
+
+// Crossings of paths: junctions, and splits of grooves at steps. Crossings of steps are errors.
+std::vector<PathError> split_at_steps(Work& work);
+// Level of every element: the ground its run between steps lies in.
+void find_levels(Work& work);
+
+// Priority of every element end, and the taper elements.
+void find_priorities(Work& work);
+
+// Cuts elements to the tile and numbers styles.
+Result<ResolvedPattern> assemble(Work& work);
+
+// A direction as the angle of an undirected line, [0, pi).
+double line_angle(Vec2 direction);
+Vec2 wrapped(const Work& work, Vec2 p);
+
+}  // namespace burin::resolving
