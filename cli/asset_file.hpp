@@ -9,6 +9,8 @@
 #include <burin/model.hpp>
 #include <burin/result.hpp>
 
+#include <gl/render.hpp>
+
 namespace burin::cli {
 
 class Arguments;
@@ -32,5 +34,8 @@ Result<std::size_t> find_patterned_material(const Asset& asset, const std::strin
 
 // The height map as --polarity and --channel ask for it.
 Result<HeightMap> read_map(const std::string& path, const Arguments& arguments);
+
+// What --backend names.
+Backend backend_of(const Arguments& arguments);
 
 }  // namespace burin::cli

@@ -7,8 +7,6 @@
 #include <burin/pack.hpp>
 #include <burin/rasterize.hpp>
 
-#include <gl/render.hpp>
-
 #include "asset_file.hpp"
 #include "command.hpp"
 #include "options.hpp"
@@ -20,8 +18,13 @@ namespace {
 // The heights that the file's own textures stand for, at the map's size.
 Result<Image> reconstruct(const Arguments& arguments, const Asset& asset, std::size_t material, const Image& map) {
     const MaterialInfo& info = asset.materials[material];
-    if (arguments.text("--with") == "shader")
-        return render_top(asset, map.width, map.height, top_options(arguments, static_cast<int>(material)));
+    if (arguments.text("--with") == "shader") {
+        TopOptions options;
+        options.material = static_cast<int>(material);
+        options.samples = RasterizeOptions{}.samples;  // the same box filter as the evaluator's
+        options.backend = backend_of(arguments);
+        return render_top(asset, map.width, map.height, options);
+    }
     auto unpacked = unpack_textures(info.textures, info.detail);
     if (!unpacked) return unpacked.error();
     RasterizeOptions options;

@@ -3,6 +3,8 @@
 
 #include <burin/vectorize.hpp>
 
+#include <gl/render.hpp>
+
 #include "options.hpp"
 
 namespace burin::cli {
@@ -14,6 +16,7 @@ constexpr auto number = OptionKind::number;
 constexpr auto integer = OptionKind::integer;
 constexpr auto choice = OptionKind::choice;
 constexpr auto extent = OptionKind::extent;
+constexpr auto pixels = OptionKind::pixels;
 constexpr auto numbers = OptionKind::numbers;
 
 std::string plain(double value) {
@@ -25,6 +28,8 @@ std::string plain(double value) {
 
 std::vector<OptionSpec> make_table() {
     const VectorizeOptions vectorize;
+    const RenderOptions render;
+    const std::string light = plain(render.light.azimuth) + "," + plain(render.light.elevation);
     const std::string depth = plain(vectorize.depth);
     const std::string tolerance = plain(vectorize.tolerance);
     return {
@@ -52,7 +57,7 @@ std::vector<OptionSpec> make_table() {
          "farthest a curve may lie from the traced line; 0 chooses by the map's grain"},
         {"--cell-size", "convert", number, "METRES", "m", "0", 0, 1e6, "", false,
          "side of a grid cell; 0 chooses by a cost model"},
-        {"--threads", "convert check render", integer, "COUNT", "", "0", 0, 256, "", false,
+        {"--threads", "convert check", integer, "COUNT", "", "0", 0, 256, "", false,
          "threads to work with, 0 for all cores; the result does not depend on it"},
 
         {"--max-rms", "check", number, "PERCENT", "% of range", "", 0, 100, "", false,
@@ -60,25 +65,29 @@ std::vector<OptionSpec> make_table() {
         {"--with", "check", choice, "WHICH", "", "truth", 0, 0, "truth|shader", false,
          "who reconstructs the heights: the evaluator of the library, or the shader"},
 
-        {"--size", "render", extent, "W[xH]", "px", "1024x768", 1, 8192, "", false, "size of the picture"},
+        {"--size", "render", pixels, "W[xH]", "px", plain(render.width), 1, 8192, "", false,
+         "size of the picture; H follows when left out"},
         {"--top", "render", flag, "", "", "", 0, 0, "", false,
          "heights of the whole pattern from straight above, 1 the surface and 0 the deepest point"},
-        {"--azimuth", "render", number, "DEGREES", "deg", "30", -360, 360, "", false,
+        {"--azimuth", "render", number, "DEGREES", "deg", plain(render.camera.azimuth), -360, 360, "", false,
          "where the camera stands around the asset, 0 in front"},
-        {"--elevation", "render", number, "DEGREES", "deg", "50", -90, 90, "", false,
+        {"--elevation", "render", number, "DEGREES", "deg", plain(render.camera.elevation), -90, 90, "", false,
          "how high the camera stands, 90 straight above"},
-        {"--zoom", "render", number, "FACTOR", "", "1", 0.01, 10000, "", false,
+        {"--zoom", "render", number, "FACTOR", "", plain(render.camera.zoom), 0.01, 10000, "", false,
          "1 shows all of it, 8 an eighth of the width"},
-        {"--center", "render", numbers, "U,V", "uv", "0.5,0.5", -1000, 1000, "", false,
-         "point of a flat asset that the camera looks at"},
-        {"--fov", "render", number, "DEGREES", "deg", "30", 1, 120, "", false, "vertical angle of view"},
+        {"--center", "render", numbers, "U,V", "uv", "", -1000, 1000, "", false,
+         "point of the pattern that the camera looks at"},
+        {"--fov", "render", number, "DEGREES", "deg", plain(render.camera.field_of_view), 1, 120, "", false,
+         "vertical angle of view"},
+        {"--orthographic", "render", flag, "", "", "", 0, 0, "", false, "parallel lines of sight"},
         {"--eye", "render", numbers, "X,Y,Z", "m", "", -1e9, 1e9, "", false,
          "camera's place; replaces azimuth, elevation and zoom"},
         {"--target", "render", numbers, "X,Y,Z", "m", "", -1e9, 1e9, "", false, "point the camera looks at"},
-        {"--light", "render", numbers, "AZIMUTH,ELEVATION", "deg", "-50,35", -360, 360, "", false,
+        {"--light", "render", numbers, "AZIMUTH,ELEVATION", "deg", light, -360, 360, "", false,
          "direction the light comes from"},
         {"--no-shadows", "render", flag, "", "", "", 0, 0, "", false, "leave shadows out"},
-        {"--samples", "render", integer, "COUNT", "", "16", 1, 256, "", false, "samples per pixel"},
+        {"--samples", "render", integer, "COUNT", "", plain(render.samples), 1, 256, "", false,
+         "samples per pixel; with --top one unless given"},
         {"--backend", "render check", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl", false,
          "OpenGL by OSMesa, which needs no GPU, or by EGL"},
 

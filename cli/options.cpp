@@ -75,6 +75,7 @@ std::string form_text(const OptionSpec& spec) {
     switch (spec.kind) {
         case OptionKind::integer: return "a whole number";
         case OptionKind::extent: return "one number or two joined by x, such as 2 or 2x1.5";
+        case OptionKind::pixels: return "one whole number or two joined by x, such as 640x480";
         case OptionKind::numbers: return std::string("numbers as ") + spec.argument;
         default: return "a number";
     }
@@ -84,11 +85,11 @@ Error refuse(const std::string& message) { return {ErrorCode::invalid_argument, 
 
 Status check_numbers(const OptionSpec& spec, const std::string& text) {
     std::vector<double> values;
-    const bool extent = spec.kind == OptionKind::extent;
+    const bool extent = spec.kind == OptionKind::extent || spec.kind == OptionKind::pixels;
     const bool list = spec.kind == OptionKind::numbers;
     const std::size_t wanted = list ? split(spec.argument, ',').size() : 1;
     const bool parsed = parse_numbers(text, extent ? 'x' : list ? ',' : '\0', values);
-    const bool whole = spec.kind != OptionKind::integer ||
+    const bool whole = (spec.kind != OptionKind::integer && spec.kind != OptionKind::pixels) ||
                        std::all_of(values.begin(), values.end(), [](double v) { return v == std::floor(v); });
     const bool counted = extent ? values.size() <= 2 : values.size() == wanted;
     const std::string given = long_name(spec) + " '" + text + "'";
@@ -257,7 +258,8 @@ std::vector<double> Arguments::numbers(const std::string& name) const {
     const OptionSpec* spec = find_option(command, name);
     assert(spec);
     std::vector<double> values_read;
-    parse_numbers(text(name), spec->kind == OptionKind::extent ? 'x' : ',', values_read);
+    const bool extent = spec->kind == OptionKind::extent || spec->kind == OptionKind::pixels;
+    parse_numbers(text(name), extent ? 'x' : ',', values_read);
     return values_read;
 }
 

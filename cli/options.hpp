@@ -25,6 +25,7 @@ enum class OptionKind {
     integer,  // a whole number in [low, high]
     choice,   // one of `choices`, separated by |
     extent,   // one number, or two joined by x: 2 or 2x1.5; each in [low, high]
+    pixels,   // an extent in whole numbers
     numbers,  // as many numbers as `argument` has commas plus one, each in [low, high]
 };
 

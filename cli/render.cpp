@@ -1,4 +1,5 @@
-// burin render: a picture of an asset, or its heights from straight above.
+// burin render: a picture of an asset as its shader draws it, or its heights from straight above.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -11,3 +12,119 @@
 #include "command.hpp"
 #include "options.hpp"
 #include "report.hpp"
+
+namespace burin::cli {
+namespace {
+
+// Suffix in lower case, with its dot; "" when there is none.
+std::string suffix_of(const std::string& path) {
+    const std::size_t dot = path.rfind('.');
+    if (dot == std::string::npos || path.find('/', dot) != std::string::npos) return "";
+    std::string suffix = path.substr(dot);
+    for (char& letter : suffix) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    return suffix;
+}
+
+Status check_output(const std::string& output, bool top) {
+    const std::string suffix = suffix_of(output);
+    const bool heights = suffix == ".exr" || suffix == ".tif" || suffix == ".tiff";
+    if (suffix == ".png" || (top && heights)) return Done{};
+    return Error{ErrorCode::invalid_argument,
+                 "--output '" + output + "' ends in neither of the suffixes that work: " +
+                     (top ? ".exr, .tif, .png" : ".png (.exr and .tif with --top)")};
+}
+
+struct PictureSize {
+    int width, height;
+};
+
+// As --size says; the height that it leaves out follows from `aspect`, height over width.
+PictureSize picture_size(const Arguments& arguments, double aspect) {
+    const auto sides = arguments.numbers("--size");
+    const double height = sides.size() > 1 ? sides[1] : std::clamp(std::round(sides[0] * aspect), 1.0, 8192.0);
+    return {static_cast<int>(sides[0]), static_cast<int>(height)};
+}
+
+std::array<double, 3> point_of(const Arguments& arguments, const std::string& name) {
+    const auto numbers = arguments.numbers(name);
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+RenderOptions render_options(const Arguments& arguments) {
+    RenderOptions options;
+    const PictureSize size = picture_size(arguments, 0.75);
+    options.width = size.width;
+    options.height = size.height;
+    options.camera.azimuth = arguments.number("--azimuth");
+    options.camera.elevation = arguments.number("--elevation");
+    options.camera.zoom = arguments.number("--zoom");
+    options.camera.field_of_view = arguments.number("--fov");
+    options.camera.orthographic = arguments.flag("--orthographic");
+    if (arguments.given("--center")) {
+        const auto center = arguments.numbers("--center");
+        options.camera.center = Vec2{center[0], center[1]};
+    }
+    if (arguments.given("--eye")) options.camera.eye = point_of(arguments, "--eye");
+    if (arguments.given("--target")) options.camera.target = point_of(arguments, "--target");
+    const auto light = arguments.numbers("--light");
+    options.light.azimuth = light[0];
+    options.light.elevation = light[1];
+    options.shadows = !arguments.flag("--no-shadows");
+    options.samples = arguments.integer("--samples");
+    options.backend = backend_of(arguments);
+    return options;
+}
+
+// Both drawers give the size, or why nothing could be drawn; `written` says whether the file could be written.
+Result<PictureSize> draw_heights(const Arguments& arguments, const Asset& asset, Status& written) {
+    const auto material = find_patterned_material(asset, arguments.text("--material"));
+    if (!material) return material.error();
+    const PathDetail& detail = asset.materials[*material].detail;
+    const PictureSize size = picture_size(arguments, detail.size_v / detail.size_u);
+    TopOptions options;
+    options.material = static_cast<int>(*material);
+    // A height image has no edges to smooth: one sample unless asked for more.
+    if (arguments.given("--samples"))
+        options.samples = std::min(16, static_cast<int>(std::ceil(std::sqrt(arguments.number("--samples")))));
+    options.backend = backend_of(arguments);
+    const auto heights = render_top(asset, size.width, size.height, options);
+    if (!heights) return heights.error();
+    written = write_height(arguments.text("--output"), *heights);
+    return size;
+}
+
+Result<PictureSize> draw_view(const Arguments& arguments, const Asset& asset, Status& written) {
+    const RenderOptions options = render_options(arguments);
+    const auto picture = render_asset(asset, options);
+    if (!picture) return picture.error();
+    written = write_png(arguments.text("--output"), *picture);
+    return PictureSize{options.width, options.height};
+}
+
+}  // namespace
+
+Backend backend_of(const Arguments& arguments) {
+    return arguments.text("--backend") == "egl" ? Backend::egl : Backend::osmesa;
+}
+
+ExitCode run_render(const Arguments& arguments) {
+    const bool top = arguments.flag("--top");
+    if (const Status checked = check_output(arguments.text("--output"), top); !checked)
+        return fail(arguments, ExitCode::usage, checked.error().message);
+    const auto file = read_asset_file(arguments.file);
+    if (!file) return fail(arguments, code_for_input(file.error()), file.error().message);
+    Status written = Done{};
+    const auto size = top ? draw_heights(arguments, file->asset, written) : draw_view(arguments, file->asset, written);
+    if (!size) return fail(arguments, code_for_input(size.error()), size.error().message);
+    if (!written) return fail(arguments, code_for_output(written.error()), written.error().message);
+
+    Report report;
+    report.add({"output", "output", arguments.text("--output"), ""});
+    report.add_group("pixels", "pixels",
+                     {{"width", "width", std::int64_t{size->width}, ""},
+                      {"height", "height", std::int64_t{size->height}, ""}});
+    report.print(arguments);
+    return ExitCode::done;
+}
+
+}  // namespace burin::cli
