@@ -32,7 +32,7 @@ void check_end(const EndCode& end, const char* name, const std::string& place, R
 void check_extent(const ElementCode& e, const std::string& place, Reporter& reporter) {
     const auto span = [&e](std::uint32_t PointCode::*axis) {
         std::uint32_t low = std::min(e.p0.*axis, e.p2.*axis), high = std::max(e.p0.*axis, e.p2.*axis);
-        if (e.quadratic) low = std::min(low, e.p1.*axis), high = std::max(high, e.p1.*axis);
+        if (e.quadratic && e.has_texel_b) low = std::min(low, e.p1.*axis), high = std::max(high, e.p1.*axis);
         return high - low;
     };
     const std::uint32_t longest = std::max(span(&PointCode::u), span(&PointCode::v));
@@ -105,13 +105,12 @@ void check_elements(const PackedTextures& textures, const PathDetail& detail, De
     for (std::uint32_t at = 0; at < count;) {
         const std::string place = "element at texel " + text(at);
         const Texel a = data_texel(textures, at);
-        const bool two = element_has_texel_b(a);
-        if (two && at + 1 == count) {
+        const bool two = element_has_texel_b(a), cut = two && at + 1 == count;
+        if (cut) {
             reporter.report(4001, "texel B would lie behind the section of " + text(count) + " texels",
                             place);
-            return;
         }
-        const ElementCode element = unpack_element(a, two ? data_texel(textures, at + 1) : Texel{});
+        const ElementCode element = unpack_element(a, two && !cut ? data_texel(textures, at + 1) : Texel{});
         data.element_at[at] = static_cast<std::uint32_t>(data.elements.size());
         data.elements.push_back(element);
         data.element_texel.push_back(at);

@@ -133,23 +133,26 @@ void check_document(const Container& container, const ValidateOptions& options, 
     const json* materials = find_array(document, "materials", reporter);
     Buffers buffers(container, options, reporter);
     std::map<std::size_t, std::string> attribute_of_material;
+    bool used_by_material = false;
     for (std::size_t i = 0; materials != nullptr && i < materials->size(); ++i) {
         const json* extension = find_extension((*materials)[i]);
         if (extension == nullptr) continue;
         std::int64_t tex_coord = 0;
-        if (extension->is_object() && extension->contains("texCoord"))
-            read_integer((*extension)["texCoord"], 0, 255, tex_coord);
-        attribute_of_material[i] = "TEXCOORD_" + std::to_string(tex_coord);
+        const bool named = extension->is_object() && extension->contains("texCoord");
+        if (!named || read_integer((*extension)["texCoord"], 0, 255, tex_coord)) {
+            attribute_of_material[i] = "TEXCOORD_" + std::to_string(tex_coord);
+        }
+        used_by_material = true;
         reporter.set_prefix("/materials/" + std::to_string(i) + "/extensions/" +
                             std::string(kPathDetailExtension));
         check_material(*extension, buffers, reporter);
         reporter.set_prefix({});
     }
-    if (!attribute_of_material.empty() && !used) {
+    if (used_by_material && !used) {
         reporter.report(2001, "a material has the extension, extensionsUsed does not list it",
                         "/extensionsUsed");
     }
-    if (attribute_of_material.empty()) {
+    if (!used_by_material) {
         reporter.report(2021, "no material has " + std::string(kPathDetailExtension), "/materials");
     }
     check_primitives(document, attribute_of_material, reporter);

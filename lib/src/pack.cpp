@@ -18,7 +18,13 @@ std::string text(std::size_t number) { return std::to_string(number); }
 Error limit(std::string message) { return {ErrorCode::limit_exceeded, std::move(message)}; }
 Error invalid(std::string message) { return {ErrorCode::invalid_input, std::move(message)}; }
 
-std::string place_text(Vec2 p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ") m"; }
+std::string place_text(Vec2 p) {
+    std::string place = "(";
+    place += std::to_string(p.x);
+    place += ", ";
+    place += std::to_string(p.y);
+    return place += ") m";
+}
 
 // Ground on the right of an element whose style is a step, resolve.hpp.
 double right_level(const ResolvedPattern& pattern, const ResolvedElement& element) {

@@ -1,0 +1,314 @@
+// For every number of the validator a file that breaks only it.
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <burin/format/validate.hpp>
+
+#include "sample_file.hpp"
+
+namespace burin {
+namespace {
+
+using nlohmann::json;
+using test::SampleFile;
+using Bytes = std::vector<std::uint8_t>;
+
+std::set<int> numbers_of(const Bytes& bytes) {
+    std::set<int> numbers;
+    validate_glb(bytes, [&numbers](const Issue& issue) { numbers.insert(issue.number); });
+    return numbers;
+}
+
+std::string text_of(const Bytes& bytes) {
+    std::string text;
+    validate_glb(bytes, [&text](const Issue& issue) {
+        text += std::to_string(issue.number) + " " + issue.pointer + ": " + issue.message + "\n";
+    });
+    return text;
+}
+
+void put_word(Bytes& bytes, std::size_t at, std::uint32_t word) {
+    for (std::size_t k = 0; k < 4; ++k) bytes[at + k] = static_cast<std::uint8_t>(word >> (8 * k));
+}
+
+std::uint32_t get_word(const Bytes& bytes, std::size_t at) {
+    return words_from_bytes(std::span(bytes).subspan(at, 4))[0];
+}
+
+// A case breaks the file at one of three moments: as bytes, as document, as textures.
+Bytes broken_bytes(const std::function<void(Bytes&)>& change) {
+    const SampleFile file = test::make_sample_file();
+    Bytes bytes = test::make_glb(test::make_document(file), test::make_bin(file));
+    change(bytes);
+    return bytes;
+}
+
+Bytes broken_document(const std::function<void(json&)>& change) {
+    const SampleFile file = test::make_sample_file();
+    json document = test::make_document(file);
+    change(document);
+    return test::make_glb(document, test::make_bin(file));
+}
+
+Bytes broken_extension(const std::function<void(json&)>& change) {
+    return broken_document([&change](json& document) {
+        change(document["materials"][0]["extensions"][std::string(kPathDetailExtension)]);
+    });
+}
+
+Bytes broken_textures(const std::function<void(PackedTextures&)>& change) {
+    SampleFile file = test::make_sample_file();
+    change(file.textures);
+    return test::make_glb(test::make_document(file), test::make_bin(file));
+}
+
+Bytes broken_cell(int i, int j, const std::function<void(CellCode&)>& change) {
+    return broken_textures([&](PackedTextures& t) {
+        CellCode cell = test::get_cell(t, i, j);
+        change(cell);
+        test::set_cell(t, i, j, cell);
+    });
+}
+
+Bytes broken_element(std::uint32_t texel, const std::function<void(ElementCode&)>& change) {
+    return broken_textures([&](PackedTextures& t) {
+        ElementCode element = test::get_element(t, texel);
+        change(element);
+        test::set_element(t, texel, element);
+    });
+}
+
+Bytes broken_style(std::uint32_t index, const std::function<void(StyleCode&)>& change) {
+    return broken_textures([&](PackedTextures& t) {
+        StyleCode style = test::get_style(t, index);
+        change(style);
+        test::set_style(t, index, style);
+    });
+}
+
+Bytes broken_profile(std::uint32_t word, std::int32_t b, std::int32_t h) {
+    return broken_textures([=](PackedTextures& t) {
+        test::set_profile_word(t, word, pack_profile_point({b, h}));
+    });
+}
+
+Bytes broken_data(std::uint32_t texel, std::size_t word, std::uint32_t value) {
+    return broken_textures([=](PackedTextures& t) { t.data[4 * std::size_t{texel} + word] = value; });
+}
+
+constexpr std::uint32_t kScaledLine = 8, kLastLine = 10, kStepWithB = 3, kPaintedStyle = 2, kMaterials = 16,
+                        kTail = 20;
+
+void add_container_cases(std::map<int, Bytes>& cases) {
+    cases[1001] = {'g', 'l', 'T', 'F', 2, 0, 0, 0};
+    cases[1002] = broken_bytes([](Bytes& b) { b[4] = 1; });
+    cases[1003] = broken_bytes([](Bytes& b) { b.resize(b.size() + 4); });
+    cases[1004] = broken_bytes([](Bytes& b) { put_word(b, 12, 0x7FFFFFFF); });
+    cases[1005] = broken_bytes([](Bytes& b) {
+        const std::size_t chunk = 20 + get_word(b, 12);
+        b.resize(b.size() + 2);
+        put_word(b, 8, static_cast<std::uint32_t>(b.size()));
+        put_word(b, chunk, get_word(b, chunk) + 2);
+    });
+    cases[1006] = broken_bytes([](Bytes& b) { put_word(b, 16, 0x004E4942); });
+    cases[1007] = broken_bytes([](Bytes& b) { b[20] = 'x'; });
+    cases[1008] = broken_document([](json& d) { d["asset"]["version"] = "1.0"; });
+    cases[1009] = broken_document([](json& d) { d["buffers"][0]["uri"] = "missing.bin"; });
+    cases[1010] = broken_document([](json& d) { d["meshes"] = 5; });
+    cases[1011] = broken_document([](json& d) { d["buffers"][0]["byteLength"] = 100000; });
+}
+
+void add_extension_cases(std::map<int, Bytes>& cases) {
+    const std::string name(kPathDetailExtension);
+    cases[2001] = broken_document([](json& d) { d.erase("extensionsUsed"); });
+    cases[2002] = broken_document([&](json& d) { d["extensionsRequired"] = json::array({name}); });
+    cases[2003] = broken_extension([](json& e) { e = 5; });
+    cases[2004] = broken_extension([](json& e) { e.erase("depth"); });
+    cases[2005] = broken_extension([](json& e) { e["depth"] = "deep"; });
+    cases[2006] = broken_extension([](json& e) { e["version"] = 2; });
+    cases[2007] = broken_extension([](json& e) { e["size"][0] = 0.0; });
+    cases[2008] = broken_extension([](json& e) { e["depth"] = 0.0; });
+    cases[2009] = broken_extension([](json& e) { e["baseOffset"] = -1.0; });
+    cases[2010] = broken_extension([](json& e) { e["outerLevel"] = 1.0; });
+    cases[2011] = broken_extension([](json& e) { e["wrap"] = "mirror"; });
+    cases[2012] = broken_extension([](json& e) { e["texCoord"] = -1; });
+    cases[2013] = broken_extension([](json& e) { e["grid"]["width"] = 4097; });
+    cases[2014] = broken_extension([](json& e) { e["data"]["lists"] = 1000; });
+    cases[2015] = broken_extension([](json& e) { e["data"]["elements"] = 65537; });
+    cases[2016] = broken_extension([](json& e) { e["grid"]["bufferView"] = 9; });
+}
+
+void add_view_cases(std::map<int, Bytes>& cases) {
+    const std::string name(kPathDetailExtension);
+    cases[2017] = broken_document([](json& d) { d["bufferViews"][0]["byteLength"] = 64; });
+    const SampleFile file = test::make_sample_file();
+    cases[2018] = test::make_glb(test::make_document(file, 2), test::make_bin(file, 2));
+    cases[2019] = broken_document([](json& d) { d["bufferViews"][0]["target"] = 34962; });
+    cases[2020] = broken_document([](json& d) { d["bufferViews"][1]["byteOffset"] = 100000; });
+    cases[2021] = broken_document([](json& d) { d["materials"][0].erase("extensions"); });
+    cases[2022] =
+        broken_document([](json& d) { d["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0"); });
+}
+
+void add_grid_cases(std::map<int, Bytes>& cases) {
+    cases[3001] = broken_cell(0, 1, [](CellCode& c) { c.first_reference = 500; });
+    cases[3002] = broken_cell(4, 3, [](CellCode& c) { c.first_reference = 1; });
+    cases[3003] = broken_cell(4, 3, [](CellCode& c) { c.flags = BURIN_CELL_FLAG_STEP; });
+    cases[3004] = broken_cell(0, 1, [](CellCode& c) { c.skip = 1; });
+    cases[3005] = broken_cell(4, 3, [](CellCode& c) { c.skip = 2; });
+    cases[3006] = broken_cell(4, 3, [](CellCode& c) { c.highest = 254; });
+    cases[3007] = broken_cell(0, 1, [](CellCode& c) { c.flags |= BURIN_CELL_FLAG_STEP; });
+    cases[3008] = broken_cell(5, 5, [](CellCode& c) { c.flags |= BURIN_CELL_FLAG_ISOLATED; });
+    cases[3009] = broken_cell(4, 3, [](CellCode& c) { c.level = 254 * 257, c.lowest = 254; });
+    cases[3010] = broken_cell(5, 5, [](CellCode& c) { c.flags = 0; });
+}
+
+void add_element_cases(std::map<int, Bytes>& cases) {
+    cases[4001] = broken_textures([](PackedTextures& t) { t.data[4 * kLastLine + 2] |= 1u << 29; });
+    cases[4002] = broken_element(kLastLine, [](ElementCode& e) { e.unused = 1; });
+    cases[4003] = broken_textures([](PackedTextures& t) { t.data[4 * kLastLine + 2] |= 1u << 28; });
+    cases[4004] = broken_element(kScaledLine, [](ElementCode& e) { e.p1.u = 5; });
+    cases[4005] = broken_element(kLastLine, [](ElementCode& e) { e.start.shape = 3; });
+    cases[4006] = broken_element(kLastLine, [](ElementCode& e) { e.end.clip_angle = 7; });
+    cases[4007] = broken_element(kLastLine, [](ElementCode& e) { e.style = 3; });
+    cases[4008] = broken_element(kLastLine, [](ElementCode& e) { e.p2 = e.p0; });
+    cases[4009] = broken_element(kLastLine, [](ElementCode& e) { e.p2.u = e.p0.u + 524289; });
+    cases[4010] = broken_element(kStepWithB, [](ElementCode& e) { e.height1 = 16000; });
+    cases[4011] = broken_element(kStepWithB, [](ElementCode& e) { e.height0 = e.height1 = 16000; });
+}
+
+void add_data_cases(std::map<int, Bytes>& cases) {
+    cases[4020] = broken_style(kPaintedStyle, [](StyleCode& s) { s.profile_texel = 2; });
+    cases[4021] = broken_style(kPaintedStyle, [](StyleCode& s) { s.point_count = 1; });
+    cases[4022] = broken_style(kPaintedStyle, [](StyleCode& s) { s.material = 2; });
+    cases[4023] =
+        broken_style(kPaintedStyle, [](StyleCode& s) { s.reach = std::numeric_limits<float>::quiet_NaN(); });
+    cases[4024] = broken_style(kPaintedStyle, [](StyleCode& s) { s.internal_mask |= 4; });
+    cases[4025] = broken_style(kPaintedStyle, [](StyleCode& s) { s.level_right = 65000; });
+    cases[4030] = broken_profile(5, 0, -32768);
+    cases[4031] = broken_textures([](PackedTextures& t) {
+        test::set_profile_word(t, 4, pack_profile_point({32767, 0}));
+        test::set_profile_word(t, 6, pack_profile_point({-32767, 0}));
+    });
+    cases[4032] = broken_profile(5, -32767, 0);
+    cases[4033] = broken_profile(0, -5, 0);
+    cases[4034] = broken_profile(6, 32767, 100);
+    cases[4035] = broken_profile(7, 1, 0);
+    cases[4040] = broken_data(kMaterials, 1, 1u << 16);
+    cases[4041] = broken_data(kMaterials + 1, 3, 1);
+    cases[4050] = broken_textures([](PackedTextures& t) { test::set_reference(t, 8, 9); });
+    cases[4051] = broken_textures([](PackedTextures& t) {
+        test::set_reference(t, 4, 3);
+        test::set_reference(t, 5, 0);
+    });
+    cases[4052] = broken_textures([](PackedTextures& t) { test::set_reference(t, 12, 1); });
+    cases[4053] = broken_data(kTail, 2, 1);
+}
+
+std::map<int, Bytes> all_cases() {
+    std::map<int, Bytes> cases;
+    add_container_cases(cases);
+    add_extension_cases(cases);
+    add_view_cases(cases);
+    add_grid_cases(cases);
+    add_element_cases(cases);
+    add_data_cases(cases);
+    return cases;
+}
+
+TEST(Validate, SampleIsValid) {
+    const Bytes bytes = broken_bytes([](Bytes&) {});
+    EXPECT_EQ(text_of(bytes), "");
+}
+
+TEST(Validate, EveryNumberHasAFileThatBreaksOnlyIt) {
+    const std::map<int, Bytes> cases = all_cases();
+    for (const IssueKind& kind : issue_kinds()) {
+        if (kind.number == 9001) continue;
+        ASSERT_TRUE(cases.count(kind.number) == 1) << kind.number << " has no case";
+        EXPECT_EQ(numbers_of(cases.at(kind.number)), std::set<int>{kind.number})
+            << kind.summary << "\n"
+            << text_of(cases.at(kind.number));
+    }
+    EXPECT_EQ(cases.size() + 1, issue_kinds().size());
+}
+
+TEST(Validate, SeverityIsThatOfTheKind) {
+    for (const auto& [number, bytes] : all_cases()) {
+        validate_glb(bytes, [number = number](const Issue& issue) {
+            EXPECT_EQ(issue.severity, find_issue_kind(number)->severity);
+            EXPECT_FALSE(issue.message.empty());
+        });
+    }
+}
+
+TEST(Validate, FloodOfFindingsIsCounted) {
+    const Bytes bytes = broken_textures([](PackedTextures& t) {
+        for (int j = 0; j < t.grid_height; ++j) {
+            for (int i = 0; i < t.grid_width; ++i) {
+                CellCode cell = test::get_cell(t, i, j);
+                if (cell.count == 0) cell.first_reference = 1;
+                test::set_cell(t, i, j, cell);
+            }
+        }
+    });
+    int listed = 0;
+    std::string closing;
+    validate_glb(bytes, [&](const Issue& issue) {
+        if (issue.number == 3002) ++listed;
+        if (issue.number == 9001) closing = issue.message;
+    });
+    EXPECT_EQ(listed, 20);
+    EXPECT_EQ(closing, "30 further findings of number 3002 are not listed");
+}
+
+TEST(Validate, NumbersGrow) {
+    int previous = 0;
+    for (const IssueKind& kind : issue_kinds()) {
+        EXPECT_GT(kind.number, previous);
+        EXPECT_EQ(find_issue_kind(kind.number), &kind);
+        previous = kind.number;
+    }
+    EXPECT_EQ(find_issue_kind(1), nullptr);
+    EXPECT_EQ(find_issue_kind(9999), nullptr);
+}
+
+TEST(Validate, DataUriAndResourceReaderServeBuffers) {
+    const SampleFile file = test::make_sample_file();
+    json document = test::make_document(file);
+    document["buffers"][0]["uri"] = "detail.bin";
+    const std::string text = document.dump();
+    ValidateOptions options;
+    options.read_resource = [&file](std::string_view uri) -> std::optional<Bytes> {
+        EXPECT_EQ(uri, "detail.bin");
+        return test::make_bin(file);
+    };
+    int count = 0;
+    validate_glb(
+        Bytes(text.begin(), text.end()), [&count](const Issue&) { ++count; }, options);
+    EXPECT_EQ(count, 0);
+
+    // Base64 of an all-zero buffer of the right size: readable, and wrong in content only.
+    const std::size_t size = document["buffers"][0]["byteLength"].get<std::size_t>();
+    std::string uri = "data:application/octet-stream;base64," + std::string((size * 8 + 5) / 6, 'A');
+    document["buffers"][0]["uri"] = uri;
+    const std::string inlined = document.dump();
+    for (const int number : numbers_of(Bytes(inlined.begin(), inlined.end()))) EXPECT_GE(number, 3000);
+}
+
+TEST(Validate, DeepNestingDoesNotOverflow) {
+    const SampleFile file = test::make_sample_file();
+    std::string text = test::make_document(file).dump();
+    const std::string deep(200000, '[');
+    const std::size_t at = text.find("\"size\":") + 7;
+    text = text.substr(0, at) + deep + std::string(200000, ']') + "," + "\"x\":" + text.substr(at);
+    EXPECT_TRUE(numbers_of(Bytes(text.begin(), text.end())).count(2005) == 1);
+}
+
+}  // namespace
+}  // namespace burin
