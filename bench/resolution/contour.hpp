@@ -1,0 +1,30 @@
+// Level lines of two surfaces and the distance between them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <burin/geometry.hpp>
+#include <burin/image.hpp>
+
+namespace burin::bench {
+
+struct Segment {
+    Vec2 a, b;
+};
+
+// Level lines of a surface given by samples on a fine grid, marching squares. Fine texel (0, 0) of `part` is texel
+// (x0, y0) of the whole; points come in units of `scale` fine texels.
+void add_level_lines(const Image& part, int x0, int y0, double level, double scale, std::vector<Segment>& out);
+
+struct LineDistance {
+    double rms = 0.0, p999 = 0.0, max = 0.0;
+    Vec2 worst;               // where max was found
+    double length = 0.0;      // of the first set
+    double lost = 0.0;        // share of both sets' length that is farther than 2 from the other set
+};
+
+// Symmetric: from each set to the other, weighted by length. Distances above 2 count as lost and as 2.
+LineDistance distance_between(const std::vector<Segment>& first, const std::vector<Segment>& second);
+
+}  // namespace burin::bench

@@ -1,0 +1,244 @@
+// Resolution independence: how far the half-height contours of a reconstruction lie from those of the drawing the map
+// was made from, beside the same for bilinear interpolation of the map. Prints a Markdown table.
+//
+//     resolution [--start disturbed|vectorized] [--patterns plate|random|all] [--maps 512,1024] [--bits 16]
+//                [--seeds N] [--zoom 8192] [--picture FILE.ppm:X:Y:SIDE]
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <burin/rasterize.hpp>
+#include <burin/refine.hpp>
+#include <burin/resolve.hpp>
+
+#include "authored.hpp"
+#include "contour.hpp"
+#include "start.hpp"
+
+namespace burin::bench {
+namespace {
+
+constexpr int kMapSamples = 32;   // per side of a map texel
+constexpr int kFineSamples = 2;   // per side of a texel of the zoomed surface
+constexpr int kPart = 512;        // texels of the zoomed surface worked on at a time
+
+struct Options {
+    std::string start = "disturbed";
+    std::string patterns = "plate";
+    std::vector<int> maps{512, 1024};
+    int bits = 16, seeds = 4, zoom = 8192;
+    std::string picture;
+};
+
+struct Case {
+    std::string name;
+    int texels;
+    Walls walls;
+    Pattern pattern;
+};
+
+struct Row {
+    double ours = 0, ours999 = 0, ours_max = 0, lost = 0, bilinear = 0, bilinear999 = 0, bilinear_lost = 0, start = 0, rms = 0, seconds = 0;
+    Vec2 worst;
+};
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void quantize(Image& map, int bits) {
+    const double steps = std::pow(2.0, bits) - 1.0;
+    for (float& v : map.texels) v = static_cast<float>(std::round(std::min(1.0, std::max(0.0, double(v))) * steps) / steps);
+}
+
+ResolvedPattern resolved_or_exit(const Pattern& pattern) {
+    Result<ResolvedPattern> resolved = resolve_pattern(pattern);
+    if (!resolved) {
+        std::fprintf(stderr, "resolution: %s\n", resolved.error().message.c_str());
+        std::exit(3);
+    }
+    return std::move(*resolved);
+}
+
+// Calls make(x0, y0, side) for overlapping parts of the zoomed surface and gathers the level lines in map texels.
+template <typename Make>
+std::vector<Segment> level_lines(int zoom, int texels, Make make) {
+    std::vector<Segment> lines;
+    for (int y = 0; y < zoom - 1; y += kPart) {
+        for (int x = 0; x < zoom - 1; x += kPart) {
+            const int width = std::min(kPart + 1, zoom - x), height = std::min(kPart + 1, zoom - y);
+            const Image part = make(x, y, width, height);
+            for (const double level : kHalfHeights)
+                add_level_lines(part, x, y, level, static_cast<double>(zoom) / texels, lines);
+        }
+    }
+    return lines;
+}
+
+std::vector<Segment> lines_of(const Pattern& pattern, int zoom, int texels) {
+    const ResolvedPattern resolved = resolved_or_exit(pattern);
+    return level_lines(zoom, texels, [&](int x, int y, int width, int height) {
+        RasterizeOptions options;
+        options.samples = kFineSamples;
+        options.region = {x, y, width, height};
+        return rasterize_height(resolved, zoom, zoom, options);
+    });
+}
+
+std::vector<Segment> lines_of(const Image& map, int zoom) {
+    const double scale = static_cast<double>(map.width) / zoom;
+    return level_lines(zoom, map.width, [&](int x0, int y0, int width, int height) {
+        Image part(width, height);
+        const auto clamped = [&](int v) { return std::min(std::max(v, 0), map.width - 1); };
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const double u = (x0 + x + 0.5) * scale - 0.5, v = (y0 + y + 0.5) * scale - 0.5;
+                const int i = static_cast<int>(std::floor(u)), j = static_cast<int>(std::floor(v));
+                const double s = u - i, t = v - j;
+                const auto at = [&](int a, int b) { return double(map.at(clamped(a), clamped(b))); };
+                part.at(x, y) = static_cast<float>((1 - t) * ((1 - s) * at(i, j) + s * at(i + 1, j)) +
+                                                   t * ((1 - s) * at(i, j + 1) + s * at(i + 1, j + 1)));
+            }
+        }
+        return part;
+    });
+}
+
+// The map enlarged, with the true lines green and ours red.
+void write_picture(const std::string& request, const Image& map, const std::vector<Segment>& truth,
+                   const std::vector<Segment>& ours) {
+    constexpr int kEnlarge = 16;
+    const std::size_t c3 = request.rfind(':'), c2 = request.rfind(':', c3 - 1), c1 = request.rfind(':', c2 - 1);
+    const int x0 = std::atoi(request.substr(c1 + 1).c_str()), y0 = std::atoi(request.substr(c2 + 1).c_str());
+    const int side = std::atoi(request.substr(c3 + 1).c_str()), pixels = side * kEnlarge;
+    std::vector<unsigned char> rgb(static_cast<std::size_t>(pixels) * pixels * 3);
+    for (int y = 0; y < pixels; ++y)
+        for (int x = 0; x < pixels; ++x)
+            for (int c = 0; c < 3; ++c)
+                rgb[(static_cast<std::size_t>(y) * pixels + x) * 3 + c] = static_cast<unsigned char>(
+                    60.0f + 180.0f * map.at(std::min(x0 + x / kEnlarge, map.width - 1), std::min(y0 + y / kEnlarge, map.height - 1)));
+    const auto draw = [&](const std::vector<Segment>& lines, int r, int g, int b) {
+        for (const Segment& s : lines) {
+            for (const Vec2 p : {s.a, s.b}) {
+                const int x = static_cast<int>((p.x - x0) * kEnlarge), y = static_cast<int>((p.y - y0) * kEnlarge);
+                if (x < 0 || y < 0 || x >= pixels || y >= pixels) continue;
+                unsigned char* t = &rgb[(static_cast<std::size_t>(y) * pixels + x) * 3];
+                t[0] = static_cast<unsigned char>(r), t[1] = static_cast<unsigned char>(g), t[2] = static_cast<unsigned char>(b);
+            }
+        }
+    };
+    draw(truth, 0, 160, 0);
+    draw(ours, 220, 0, 0);
+    std::ofstream file(request.substr(0, c1), std::ios::binary);
+    file << "P6\n" << pixels << " " << pixels << "\n255\n";
+    file.write(reinterpret_cast<const char*>(rgb.data()), static_cast<std::streamsize>(rgb.size()));
+}
+
+Row measure(const Case& c, const Options& options, unsigned seed) {
+    RasterizeOptions raster;
+    raster.samples = kMapSamples;
+    Image map = rasterize_height(resolved_or_exit(c.pattern), c.texels, c.texels, raster);
+    quantize(map, options.bits);
+    Row row;
+    const double begin = now();
+    Pattern ours;
+    const std::vector<Segment> truth = lines_of(c.pattern, options.zoom, c.texels);
+    if (options.start == "vectorized") {
+        ours = vectorized(map, c.pattern);
+    } else {
+        ours = disturbed(c.pattern, c.texels, 0.3, 0.05, seed);
+        row.start = distance_between(truth, lines_of(ours, options.zoom, c.texels)).rms;
+        const double before = now();
+        const Result<RefineReport> report = refine_pattern(ours, map);
+        row.seconds = now() - before;
+        if (!report) {
+            std::fprintf(stderr, "resolution: %s\n", report.error().message.c_str());
+            std::exit(3);
+        }
+        row.rms = report->rms_after;
+    }
+    if (options.start == "vectorized") row.seconds = now() - begin;
+    const std::vector<Segment> our_lines = lines_of(ours, options.zoom, c.texels);
+    const LineDistance distance = distance_between(truth, our_lines);
+    const LineDistance bilinear = distance_between(truth, lines_of(map, options.zoom));
+    row.ours = distance.rms, row.ours999 = distance.p999, row.ours_max = distance.max, row.lost = distance.lost;
+    row.worst = distance.worst;
+    row.bilinear = bilinear.rms, row.bilinear999 = bilinear.p999, row.bilinear_lost = bilinear.lost;
+    if (!options.picture.empty()) write_picture(options.picture, map, truth, our_lines);
+    return row;
+}
+
+std::vector<Case> cases_of(const Options& options) {
+    struct Reading {
+        const char* name;
+        Walls walls;
+    };
+    const Reading readings[] = {{"groove 8, walls 2", {8.0, 2.0}},
+                                {"groove 8, walls 0.4", {8.0, 0.4}},
+                                {"groove 2, vertical", {2.0, 0.0}},
+                                {"groove 0.4, vertical", {0.4, 0.0}}};
+    std::vector<Case> cases;
+    for (const int texels : options.maps) {
+        for (const Reading& reading : readings) {
+            if (options.patterns != "random")
+                cases.push_back({std::string("plate, ") + reading.name, texels, reading.walls, plate(texels, reading.walls)});
+            for (int seed = 1; seed <= options.seeds && options.patterns != "plate"; ++seed)
+                cases.push_back({"random " + std::to_string(seed) + ", " + reading.name, texels, reading.walls,
+                                 random_plate(texels, reading.walls, static_cast<unsigned>(seed))});
+        }
+    }
+    return cases;
+}
+
+std::vector<int> numbers(const char* text) {
+    std::vector<int> out;
+    for (const char* p = text; *p;) {
+        char* end = nullptr;
+        out.push_back(static_cast<int>(std::strtol(p, &end, 10)));
+        p = *end == ',' ? end + 1 : end;
+        if (end == text) break;
+    }
+    return out;
+}
+
+Options read_options(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i + 1 < argc; i += 2) {
+        const std::string name = argv[i];
+        const char* value = argv[i + 1];
+        if (name == "--start") options.start = value;
+        else if (name == "--patterns") options.patterns = value;
+        else if (name == "--maps") options.maps = numbers(value);
+        else if (name == "--bits") options.bits = std::atoi(value);
+        else if (name == "--seeds") options.seeds = std::atoi(value);
+        else if (name == "--zoom") options.zoom = std::atoi(value);
+        else if (name == "--picture") options.picture = value;
+        else std::fprintf(stderr, "resolution: unknown option %s\n", name.c_str()), std::exit(2);
+    }
+    return options;
+}
+
+int run(const Options& options) {
+    std::printf("Distance of half-height contours from the drawing's, in map texels; %d bits, reconstructed at %d, start: %s.\n\n",
+                options.bits, options.zoom, options.start.c_str());
+    std::printf("| map | pattern | ours RMS | ours 99.9 %% | ours max | lost | bilinear RMS | bilinear 99.9 %% | lost | start RMS | height RMS | s | worst at |\n");
+    std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const Case& c : cases_of(options)) {
+        const Row r = measure(c, options, 7);
+        std::printf("| %d | %s | %.4f | %.3f | %.3f | %.2f %% | %.4f | %.3f | %.2f %% | %.3f | %.5f | %.2f | %.1f, %.1f |\n", c.texels, c.name.c_str(), r.ours,
+                    r.ours999, r.ours_max, 100 * r.lost, r.bilinear, r.bilinear999, 100 * r.bilinear_lost, r.start, r.rms, r.seconds, r.worst.x, r.worst.y);
+        std::fflush(stdout);
+    }
+    return 0;
+}
+
+}  // namespace
+}  // namespace burin::bench
+
+int main(int argc, char** argv) { return burin::bench::run(burin::bench::read_options(argc, argv)); }

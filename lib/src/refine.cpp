@@ -1,0 +1,175 @@
+#include <burin/refine.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <burin/resolve.hpp>
+
+#include "refine_forward.hpp"
+#include "refine_parameters.hpp"
+#include "refine_solve.hpp"
+
+namespace burin {
+namespace refinement {
+namespace {
+
+constexpr double kLeastThreshold = 0.004;  // map scale: one step of an 8-bit map
+constexpr double kThresholdInDeviations = 4.0;
+constexpr double kFirstDamping = 1e-3;
+constexpr double kMostDamping = 1e4;
+constexpr double kSettled = 1e-4;  // relative gain of a step below which the iteration ends
+
+// The pattern in texels of the map's width, heights in map scale: white 1, black 0.
+Pattern to_texels(const Pattern& pattern, double texel) {
+    Pattern out = pattern;
+    const double inverse = 1.0 / texel;
+    const auto height = [&](double z) { return 1.0 + (z - pattern.base_offset) / pattern.depth; };
+    out.size = pattern.size * inverse;
+    out.depth = 1.0;
+    out.base_offset = 1.0;
+    out.outer_level = height(pattern.outer_level);
+    for (Profile& profile : out.profiles)
+        for (ProfilePoint& point : profile.points) point.b *= inverse, point.h /= pattern.depth;
+    for (Path& path : out.paths) {
+        path.level = height(path.level);
+        for (Element& e : path.elements) e.p0 = e.p0 * inverse, e.p1 = e.p1 * inverse, e.p2 = e.p2 * inverse;
+    }
+    return out;
+}
+
+// Writes the refined numbers back into the pattern in metres.
+void from_texels(const Pattern& refined, double texel, Pattern& pattern) {
+    const auto metres = [&](double value) { return pattern.base_offset + (value - 1.0) * pattern.depth; };
+    pattern.outer_level = metres(refined.outer_level);
+    for (std::size_t i = 0; i < pattern.profiles.size(); ++i) {
+        for (std::size_t k = 0; k < pattern.profiles[i].points.size(); ++k) {
+            pattern.profiles[i].points[k].b = refined.profiles[i].points[k].b * texel;
+            pattern.profiles[i].points[k].h = refined.profiles[i].points[k].h * pattern.depth;
+        }
+    }
+    for (std::size_t p = 0; p < pattern.paths.size(); ++p) {
+        pattern.paths[p].level = metres(refined.paths[p].level);
+        for (std::size_t i = 0; i < pattern.paths[p].elements.size(); ++i) {
+            Element e = refined.paths[p].elements[i];
+            const Vec2 unused = pattern.paths[p].elements[i].p1;
+            e.p0 = e.p0 * texel, e.p2 = e.p2 * texel;
+            e.p1 = e.kind == ElementKind::line ? unused : e.p1 * texel;
+            pattern.paths[p].elements[i] = e;
+        }
+    }
+}
+
+double root_mean_square(const std::vector<Residual>& residuals) {
+    double sum = 0.0;
+    for (const Residual& r : residuals) sum += double(r.value) * r.value;
+    return residuals.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(residuals.size()));
+}
+
+// Huber's threshold from the spread of the residuals on walls, where misplacement shows.
+double threshold_of(const std::vector<Residual>& residuals) {
+    std::vector<float> magnitudes;
+    for (const Residual& r : residuals)
+        if (r.steep) magnitudes.push_back(std::abs(r.value));
+    if (magnitudes.empty()) return kLeastThreshold;
+    const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
+    std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+    return std::max(kLeastThreshold, kThresholdInDeviations * 1.4826 * *middle);
+}
+
+struct State {
+    Pattern pattern;
+    Parameters parameters;
+    std::vector<ElementUnknowns> elements;
+    Prediction prediction;
+};
+
+class Refinement {
+  public:
+    Refinement(const Image& map, Vec2 side, const RefineOptions& options)
+        : map_(map), side_(side), options_(options) {}
+
+    Status predict(State& state, double threshold) const {
+        ResolveOptions resolve;
+        resolve.snap = options_.snap;
+        const Result<ResolvedPattern> resolved = resolve_pattern(state.pattern, resolve);
+        if (!resolved) return resolved.error();
+        state.elements = state.parameters.of_elements(state.pattern, *resolved);
+        ForwardOptions forward;
+        forward.robust = threshold;
+        forward.threads = options_.threads;
+        state.prediction = Forward(*resolved, map_, side_).predict(state.elements, forward);
+        return Done{};
+    }
+
+    // Damped Gauss-Newton steps until nothing is gained. False when the pattern is better left as it was.
+    Result<bool> run(State& best, RefineReport& report) const {
+        if (Status status = predict(best, 1e30); !status) return status.error();
+        const std::vector<Residual> first = best.prediction.residuals;
+        report.rms_before = root_mean_square(first);
+        report.unknowns = best.parameters.count();
+        double damping = kFirstDamping;
+        while (report.iterations < options_.iterations && damping < kMostDamping && report.unknowns > 0) {
+            const NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
+            State next{best.pattern, best.parameters, {}, {}};
+            next.parameters.apply(equations.step(damping), options_.max_shift_texels, next.pattern);
+            const double next_threshold = threshold_of(best.prediction.residuals);
+            ++report.iterations;
+            const bool resolves = predict(next, next_threshold).ok();
+            const double before = robust_cost(best.prediction.residuals, next_threshold);
+            const double after = resolves ? robust_cost(next.prediction.residuals, next_threshold) : 1e300;
+            if (after >= before) {
+                damping = std::max(10.0 * damping, 1e-2);
+                continue;
+            }
+            best = std::move(next);
+            damping = std::max(0.1 * damping, 1e-6);
+            if (before - after < kSettled * before) break;
+        }
+        report.rms_after = root_mean_square(best.prediction.residuals);
+        report.largest_shift_texels = best.parameters.largest_shift();
+        const double threshold = threshold_of(best.prediction.residuals);
+        return robust_cost(best.prediction.residuals, threshold) < robust_cost(first, threshold);
+    }
+
+  private:
+    const Image& map_;
+    const Vec2 side_;
+    const RefineOptions& options_;
+};
+
+std::optional<Error> fault_of(const Pattern& pattern, const Image& map, const RefineOptions& options) {
+    const auto fault = [](const std::string& message) { return Error{ErrorCode::invalid_argument, message}; };
+    if (map.width < 1 || map.height < 1) return fault("the map to refine against is empty");
+    if (!(pattern.size.x > 0.0 && pattern.size.y > 0.0 && pattern.depth > 0.0))
+        return fault("pattern size and depth must be above 0");
+    if (options.iterations < 0) return fault("iterations is " + std::to_string(options.iterations) + ", below 0");
+    if (!(options.max_shift_texels > 0.0)) return fault("max_shift_texels must be above 0");
+    if (!(options.snap >= 0.0 && options.snap <= 0.01)) return fault("snap must lie in [0, 0.01]");
+    if (!(options.narrow_texels >= 0.0)) return fault("narrow_texels must not be negative");
+    return std::nullopt;
+}
+
+}  // namespace
+}  // namespace refinement
+
+Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const RefineOptions& options) {
+    using namespace refinement;
+    if (const std::optional<Error> fault = fault_of(pattern, map, options)) return *fault;
+    // Checked before anything indexes by it.
+    if (const Result<ResolvedPattern> resolved = resolve_pattern(pattern); !resolved) return resolved.error();
+    const double texel = pattern.size.x / map.width;
+    const Vec2 side{1.0, pattern.size.y / map.height / texel};
+    Pattern start = to_texels(pattern, texel);
+    Parameters parameters(start, options);
+    State state{std::move(start), std::move(parameters), {}, {}};
+    RefineReport report;
+    const Result<bool> better = Refinement(map, side, options).run(state, report);
+    if (!better) return better.error();
+    if (*better) from_texels(state.pattern, texel, pattern);
+    return report;
+}
+
+}  // namespace burin

@@ -1,0 +1,31 @@
+// Damped normal equations of a refinement, sparse, solved by conjugate gradients.
+#pragma once
+
+#include <vector>
+
+#include "refine_forward.hpp"
+
+namespace burin::refinement {
+
+// Symmetric matrix by rows.
+class NormalEquations {
+  public:
+    // Sums the parts in their order: the result does not depend on who computed them.
+    NormalEquations(int unknowns, const std::vector<ElementUnknowns>& elements, const Prediction& prediction);
+
+    // Step that minimizes the quadratic model plus damping * diagonal. Unknowns that nothing depends on stay.
+    std::vector<double> step(double damping) const;
+
+    const std::vector<double>& gradient() const { return gradient_; }
+
+  private:
+    void multiply(const std::vector<double>& x, const std::vector<double>& damped, std::vector<double>& out) const;
+
+    std::vector<std::size_t> first_;
+    std::vector<int> column_;
+    std::vector<double> value_;
+    std::vector<double> diagonal_;
+    std::vector<double> gradient_;
+};
+
+}  // namespace burin::refinement
