@@ -1,5 +1,6 @@
 // TIFF and BigTIFF: the first image file directory, rewritten to the tags that heights need; no further pages.
 #include <algorithm>
+#include <bit>
 #include <map>
 
 #include "container.hpp"
@@ -80,6 +81,7 @@ class TiffWalk {
                                            &TiffWalk::coding, &TiffWalk::blocks}) {
             if (Status status = (this->*step)(); !status.ok()) return status.error();
         }
+        if (Status status = narrow_doubles(); !status.ok()) return status.error();
         result_.bytes = std::move(file_);
         return std::move(result_);
     }
@@ -266,6 +268,38 @@ class TiffWalk {
                                " cannot hold its texels");
         }
         return Done{};
+    }
+
+    // The decoder gives zeros for 64-bit floats: they are rewritten in place as 32-bit ones, which is what heights are
+    // kept in anyway.
+    Status narrow_doubles() {
+        if (!result_.is_float || result_.bit_depth != 64) return Done{};
+        if (compression_.code != 1)
+            return not_promised("TIFF: compressed 64 bit floats are not read; save them as 32 bit floats");
+        const bool tiled = fields_.count(kTileWidth) != 0;
+        const std::uint16_t offsets = tiled ? kTileOffsets : kStripOffsets;
+        const std::uint16_t sizes = tiled ? kTileBytes : kStripBytes;
+        if (fields_.count(sizes) == 0) return damaged("TIFF: no strip or tile sizes");
+        std::uint64_t total = 0;
+        for (std::uint64_t i = 0; i < std::min(fields_[offsets].count, fields_[sizes].count); ++i) {
+            const std::uint64_t at = value(offsets, i), bytes = value(sizes, i);
+            total += std::min(bytes, reader_.size());
+            if (total > reader_.size()) return damaged("TIFF: strips or tiles overlap");
+            if (!reader_.has(at, bytes)) return damaged("TIFF: strip or tile " + std::to_string(i) + " lies past the end");
+            for (std::uint64_t k = 0; k + 8 <= bytes; k += 8) {
+                const auto narrow = static_cast<float>(std::bit_cast<double>(reader_.u64(at + k)));
+                write_number(at + k / 2, std::bit_cast<std::uint32_t>(narrow), 4);
+            }
+            set_value(sizes, i, bytes / 2);
+        }
+        for (std::uint64_t i = 0; i < fields_[kBits].count; ++i) set_value(kBits, i, 32);
+        return Done{};
+    }
+
+    void set_value(std::uint16_t tag, std::uint64_t index, std::uint64_t number) {
+        const Field& field = fields_.at(tag);
+        const int bytes = type_bytes(field.type);
+        write_number(field.at + index * static_cast<std::uint64_t>(bytes), number, bytes);
     }
 
     std::vector<std::uint8_t> file_;

@@ -1,0 +1,209 @@
+// The document with the pattern, as one glb.
+#include <algorithm>
+#include <cassert>
+
+#include <burin/image_io.hpp>
+
+#include "gltf_document.hpp"
+
+namespace burin {
+namespace {
+
+constexpr const char* kReplacedNormalTexture = "burin_replaced_normal_texture";
+// Views start on multiples of four bytes as glTF asks; the textures on sixteen, so that a mapped file can be uploaded
+// as it lies.
+constexpr std::size_t kAlignment = 4, kTextureAlignment = 16;
+constexpr int kRepeat = 10497, kClampToEdge = 33071, kLinear = 9729, kLinearMipmapLinear = 9987;
+
+void append_word(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
+    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+// Appends to a list of the document, which it makes when there is none; returns the place.
+std::size_t append_to(Json& document, const char* key, Json item) {
+    Json& list = document[key];
+    if (!list.is_array()) list = Json::array();
+    list.push_back(std::move(item));
+    return list.size() - 1;
+}
+
+class GlbWriter {
+  public:
+    explicit GlbWriter(const ModelData& model) : model_(model), document_(model.document) {}
+
+    // All buffers one after the other, so that the first one, the binary chunk, holds everything.
+    void merge_buffers() {
+        std::vector<std::size_t> starts;
+        for (const std::vector<std::uint8_t>& buffer : model_.buffers) {
+            pad(kTextureAlignment);
+            starts.push_back(binary_.size());
+            binary_.insert(binary_.end(), buffer.begin(), buffer.end());
+        }
+        if (document_.contains("bufferViews"))
+            for (Json& view : document_["bufferViews"]) {
+                const std::size_t start = starts[unsigned_or(view, "buffer", 0)];
+                view["buffer"] = 0;
+                if (start > 0) view["byteOffset"] = start + unsigned_or(view, "byteOffset", 0);
+            }
+        merge_descriptions();
+    }
+
+    // Images that came by URI become views; those that lie in views stay.
+    void embed_images() {
+        for (std::size_t i = 0; i < model_.images.size(); ++i) {
+            const EncodedImage& image = model_.images[i];
+            if (image.bytes.empty()) continue;
+            Json& item = document_["images"][i];
+            // The file's name tells people what the picture is.
+            const std::string uri = text_or(item, "uri", "");
+            if (!item.contains("name") && uri.rfind("data:", 0) != 0) item["name"] = uri.substr(uri.find_last_of('/') + 1);
+            item.erase("uri");
+            item["bufferView"] = add_view(image.bytes, kAlignment);
+            item["mimeType"] = image.mime_type;
+        }
+    }
+
+    std::size_t add_words(const std::vector<std::uint32_t>& words, const char* name) {
+        std::vector<std::uint8_t> bytes;
+        bytes.reserve(words.size() * 4);
+        for (const std::uint32_t word : words) append_word(bytes, word);
+        const std::size_t view = add_view(bytes, kTextureAlignment);
+        document_["bufferViews"][view]["name"] = name;
+        return view;
+    }
+
+    // A texture of the core material; the sampler says how the pattern repeats.
+    Result<std::size_t> add_texture(const RgbaImage& image, const char* name, std::size_t sampler) {
+        Result<std::vector<std::uint8_t>> png = encode_png(image);
+        if (!png.ok()) return png.error();
+        const std::size_t source = append_to(
+            document_, "images", {{"bufferView", add_view(*png, kAlignment)}, {"mimeType", "image/png"}, {"name", name}});
+        return append_to(document_, "textures", {{"source", source}, {"sampler", sampler}, {"name", name}});
+    }
+
+    std::size_t add_sampler(bool repeat) {
+        const int wrap = repeat ? kRepeat : kClampToEdge;
+        return append_to(document_, "samplers", {{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}, {"wrapS", wrap}, {"wrapT", wrap}});
+    }
+
+    Json& material(std::size_t index) { return document_["materials"][index]; }
+
+    void use_extension(const std::string& name) {
+        Json& used = document_["extensionsUsed"];
+        if (!used.is_array()) used = Json::array();
+        if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+    }
+
+    Result<std::vector<std::uint8_t>> finish() {
+        if (binary_.empty()) return assemble({});
+        document_["buffers"][0]["byteLength"] = binary_.size();
+        pad(kAlignment);
+        return assemble(binary_);
+    }
+
+  private:
+    void pad(std::size_t alignment) { binary_.resize((binary_.size() + alignment - 1) / alignment * alignment, 0); }
+
+    std::size_t add_view(const std::vector<std::uint8_t>& bytes, std::size_t alignment) {
+        pad(alignment);
+        const std::size_t begin = binary_.size();
+        binary_.insert(binary_.end(), bytes.begin(), bytes.end());
+        if (!document_.contains("buffers") || document_["buffers"].empty()) document_["buffers"] = Json::array({Json::object()});
+        return append_to(document_, "bufferViews", {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size()}});
+    }
+
+    // One buffer remains; names and extras of the others move under its extras.
+    void merge_descriptions() {
+        if (model_.buffers.empty()) return;
+        Json kept = document_["buffers"][0];
+        kept.erase("uri");
+        Json others = Json::array();
+        for (std::size_t i = 1; i < model_.buffers.size(); ++i) {
+            Json other = document_["buffers"][i];
+            for (const char* key : {"uri", "byteLength"}) other.erase(key);
+            if (!other.empty()) others.push_back(other);
+        }
+        if (!others.empty()) {
+            if (kept.contains("extras") && !kept["extras"].is_object()) kept["extras"] = {{"value", kept["extras"]}};
+            kept["extras"]["burin_merged_buffers"] = others;
+        }
+        document_["buffers"] = Json::array({kept});
+    }
+
+    Result<std::vector<std::uint8_t>> assemble(const std::vector<std::uint8_t>& binary) const {
+        std::string text = document_.dump(-1, ' ', false, Json::error_handler_t::replace);
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        const std::uint64_t total = 12 + 8 + text.size() + (binary.empty() ? 0 : 8 + binary.size());
+        if (total > 0xffffffffull)
+            return Error{ErrorCode::limit_exceeded, "the result has " + std::to_string(total) + " bytes, glb holds 4 GiB"};
+        std::vector<std::uint8_t> bytes;
+        bytes.reserve(total);
+        append_word(bytes, 0x46546c67);  // glTF
+        append_word(bytes, 2);
+        append_word(bytes, static_cast<std::uint32_t>(total));
+        append_word(bytes, static_cast<std::uint32_t>(text.size()));
+        append_word(bytes, 0x4e4f534a);  // JSON
+        bytes.insert(bytes.end(), text.begin(), text.end());
+        if (binary.empty()) return bytes;
+        append_word(bytes, static_cast<std::uint32_t>(binary.size()));
+        append_word(bytes, 0x004e4942);  // BIN
+        bytes.insert(bytes.end(), binary.begin(), binary.end());
+        return bytes;
+    }
+
+    const ModelData& model_;
+    Json document_;
+    std::vector<std::uint8_t> binary_;
+};
+
+// Puts the fallback's normal map into the core material and keeps what stood there under the extras.
+void set_normal_texture(Json& material, std::size_t texture, int tex_coord) {
+    // Attaching a second time must not take the first fallback for the model's own.
+    const bool own = material.contains("normalTexture") &&
+                     (!material.contains("extensions") || !material["extensions"].contains(std::string(kPathDetailExtension)));
+    if (own) {
+        Json& extras = material["extras"];
+        if (!extras.is_null() && !extras.is_object()) extras = {{"value", extras}};
+        extras[kReplacedNormalTexture] = material["normalTexture"];
+    }
+    material["normalTexture"] = {{"index", texture}};
+    if (tex_coord != 0) material["normalTexture"]["texCoord"] = tex_coord;
+}
+
+Status add_fallback(GlbWriter& writer, Json& material, const Fallback& fallback, const PathDetail& detail) {
+    if (fallback.normal.width == 0) return Done{};
+    const std::size_t sampler = writer.add_sampler(detail.repeat);
+    Result<std::size_t> normal = writer.add_texture(fallback.normal, "path detail, normals", sampler);
+    if (!normal.ok()) return normal.error();
+    set_normal_texture(material, *normal, detail.tex_coord);
+    if (fallback.occlusion.width == 0 || material.contains("occlusionTexture")) return Done{};
+    Result<std::size_t> occlusion = writer.add_texture(fallback.occlusion, "path detail, occlusion", sampler);
+    if (!occlusion.ok()) return occlusion.error();
+    material["occlusionTexture"] = {{"index", *occlusion}};
+    if (detail.tex_coord != 0) material["occlusionTexture"]["texCoord"] = detail.tex_coord;
+    return Done{};
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedTextures& textures, const PathDetail& detail,
+                                            const Fallback& fallback, const AttachOptions& options) {
+    assert(textures.grid.size() == static_cast<std::size_t>(textures.grid_width) * textures.grid_height * 2);
+    assert(textures.data.size() == static_cast<std::size_t>(textures.data_width) * textures.data_height * 4);
+    Result<MaterialTarget> target = find_material(model, options);
+    if (!target.ok()) return target.error();
+    GlbWriter writer(model.data());
+    writer.merge_buffers();
+    writer.embed_images();
+    PathDetail described = detail;
+    described.tex_coord = options.tex_coord;
+    described.grid_view = static_cast<int>(writer.add_words(textures.grid, "path detail, grid"));
+    described.data_view = static_cast<int>(writer.add_words(textures.data, "path detail, data"));
+    Json& material = writer.material(target->index);
+    if (Status status = add_fallback(writer, material, fallback, described); !status.ok()) return status.error();
+    material["extensions"][std::string(kPathDetailExtension)] = Json::parse(write_extension(described));
+    writer.use_extension(std::string(kPathDetailExtension));
+    return writer.finish();
+}
+
+}  // namespace burin
