@@ -43,7 +43,7 @@ class Tracer {
           along_{ray.direction[0], ray.direction[1]}, climb_(ray.direction[2]) {
         const double whole = std::sqrt(dot(along_, along_) + climb_ * climb_);
         assert(whole > 0.0);
-        sliver_ = kSliver * std::max(truth_.size.x, truth_.size.y) / whole;
+        whole_ = whole;
         before_ = -1e-6 * truth_.depth / whole;
     }
 
@@ -84,7 +84,9 @@ class Tracer {
     double height_;
     Vec2 along_;
     double climb_;
-    double sliver_ = 0, before_ = 0;
+    double whole_ = 1;    // length of the direction
+    double sliver_ = 0;   // kSliver as a difference of t; far from the origin rounding makes it longer
+    double before_ = 0;   // a little before the ray's origin
     double last_empty_ = 0;  // a place of the ray known to be outside of the solid, the latest one
     bool any_empty_ = false;
     std::vector<Near> near_;
@@ -350,6 +352,8 @@ State Tracer::state_at(double t, double ground) const {
 }
 
 bool Tracer::trace_chunk(double begin, double end, RayHit& hit) {
+    const double far = std::max({std::abs(at(end).x), std::abs(at(end).y), truth_.size.x, truth_.size.y});
+    sliver_ = kSliver * far / whole_;
     gather_near(begin, end);
     gather_events(begin, end);
     std::size_t passed = 0;  // step path lines behind us
