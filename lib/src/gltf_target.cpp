@@ -15,14 +15,22 @@ Vec3 transformed(const Matrix& m, const float* p) {
     return out;
 }
 
-// Materials that triangles use, in the document's order. A primitive without one uses glTF's default, which has no
-// name and cannot carry an extension.
+// A primitive without a material uses glTF's default, which counts as one more after the document's own.
+std::size_t material_of(const ModelData& model, const Json& primitive) {
+    return unsigned_or(primitive, "material", array_of(model.document, "materials").size());
+}
+
+std::string material_name(const ModelData& model, std::size_t index) {
+    const Json& materials = array_of(model.document, "materials");
+    return index < materials.size() ? text_or(materials[index], "name", "") : "default";
+}
+
+// Materials that triangles use, in the document's order.
 std::set<std::size_t> used_materials(const ModelData& model) {
     std::set<std::size_t> used;
     for (const Json& mesh : array_of(model.document, "meshes"))
         for (const Json& primitive : mesh["primitives"])
-            if (is_triangles(primitive) && primitive.contains("material"))
-                used.insert(unsigned_or(primitive, "material", 0));
+            if (is_triangles(primitive)) used.insert(material_of(model, primitive));
     return used;
 }
 
@@ -32,7 +40,7 @@ std::string quoted_names(const ModelData& model, const std::set<std::size_t>& ma
     std::size_t shown = 0;
     for (const std::size_t i : materials) {
         if (shown++ == kMostNames) return text + ", ...";
-        const std::string name = text_or(array_of(model.document, "materials")[i], "name", "");
+        const std::string name = material_name(model, i);
         text += (text.empty() ? "" : ", ") + (name.empty() ? "(no name, number " + std::to_string(i) + ")" : "'" + name + "'");
     }
     return text;
@@ -40,7 +48,7 @@ std::string quoted_names(const ModelData& model, const std::set<std::size_t>& ma
 
 Result<std::size_t> choose_material(const ModelData& model, const std::string& wanted) {
     const std::set<std::size_t> used = used_materials(model);
-    if (used.empty()) return model_error("the model has no triangles with a material that a pattern could go onto");
+    if (used.empty()) return model_error("the model has no triangles that a pattern could go onto");
     if (wanted.empty()) {
         if (used.size() == 1) return *used.begin();
         return model_error("the model has " + std::to_string(used.size()) + " materials: " + quoted_names(model, used) +
@@ -48,7 +56,7 @@ Result<std::size_t> choose_material(const ModelData& model, const std::string& w
     }
     std::set<std::size_t> found;
     for (const std::size_t i : used)
-        if (text_or(array_of(model.document, "materials")[i], "name", "") == wanted) found.insert(i);
+        if (material_name(model, i) == wanted) found.insert(i);
     if (found.size() == 1) return *found.begin();
     if (found.empty())
         return model_error("no triangle has a material named '" + wanted + "'; the model has " + quoted_names(model, used));
@@ -108,10 +116,11 @@ Result<MaterialTarget> find_material(const Model& model, const AttachOptions& op
     if (!chosen.ok()) return chosen.error();
     MaterialTarget target;
     target.index = *chosen;
-    const Json& material = array_of(data.document, "materials")[*chosen];
-    target.name = text_or(material, "name", "");
-    target.replaces_normal_texture = material.contains("normalTexture");
-    target.keeps_occlusion_texture = material.contains("occlusionTexture");
+    target.name = material_name(data, *chosen);
+    if (const Json& materials = array_of(data.document, "materials"); *chosen < materials.size()) {
+        target.replaces_normal_texture = materials[*chosen].contains("normalTexture");
+        target.keeps_occlusion_texture = materials[*chosen].contains("occlusionTexture");
+    }
     const std::string set = "TEXCOORD_" + std::to_string(options.tex_coord);
     Scale scale;
     std::vector<PlacedMesh> placed = placed_meshes(data);
@@ -125,7 +134,7 @@ Result<MaterialTarget> find_material(const Model& model, const AttachOptions& op
         const Json& primitives = array_of(data.document, "meshes")[m.mesh]["primitives"];
         for (std::size_t i = 0; i < primitives.size(); ++i) {
             const Json& primitive = primitives[i];
-            if (!is_triangles(primitive) || unsigned_or(primitive, "material", ~0ull) != *chosen) continue;
+            if (!is_triangles(primitive) || material_of(data, primitive) != *chosen) continue;
             const auto uv = attribute_of(primitive, set);
             if (!uv.has_value())
                 return model_error(place(data.document, "meshes", m.mesh) + ".primitives[" + std::to_string(i) +

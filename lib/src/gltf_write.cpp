@@ -4,7 +4,7 @@
 
 #include <burin/image_io.hpp>
 
-#include "gltf_document.hpp"
+#include "gltf_geometry.hpp"
 
 namespace burin {
 namespace {
@@ -86,7 +86,18 @@ class GlbWriter {
         return append_to(document_, "samplers", {{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}, {"wrapS", wrap}, {"wrapT", wrap}});
     }
 
-    Json& material(std::size_t index) { return document_["materials"][index]; }
+    // Triangles without a material get one of their own when the pattern goes onto glTF's default.
+    Json& material(std::size_t index, const std::string& name) {
+        if (!document_.contains("materials")) document_["materials"] = Json::array();
+        Json& materials = document_["materials"];
+        if (index == materials.size()) {
+            materials.push_back({{"name", name}});
+            for (Json& mesh : document_["meshes"])
+                for (Json& primitive : mesh["primitives"])
+                    if (!primitive.contains("material") && is_triangles(primitive)) primitive["material"] = index;
+        }
+        return materials[index];
+    }
 
     void use_extension(const std::string& name) {
         Json& used = document_["extensionsUsed"];
@@ -199,7 +210,7 @@ Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedText
     described.tex_coord = options.tex_coord;
     described.grid_view = static_cast<int>(writer.add_words(textures.grid, "path detail, grid"));
     described.data_view = static_cast<int>(writer.add_words(textures.data, "path detail, data"));
-    Json& material = writer.material(target->index);
+    Json& material = writer.material(target->index, target->name);
     if (Status status = add_fallback(writer, material, fallback, described); !status.ok()) return status.error();
     material["extensions"][std::string(kPathDetailExtension)] = Json::parse(write_extension(described));
     writer.use_extension(std::string(kPathDetailExtension));

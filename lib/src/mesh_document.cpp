@@ -102,6 +102,8 @@ ModelData make_document(const std::string& name, const std::vector<MeshPart>& pa
             {{"attributes", attributes}, {"indices", indices}, {"material", material_index(document, part.material)}});
     }
     document["buffers"][0]["byteLength"] = model.buffers[0].size();
+    // Numbers made here are signed; what is read from a file is unsigned, and the checks rely on it.
+    document = Json::parse(document.dump());
     return model;
 }
 

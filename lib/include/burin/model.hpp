@@ -67,13 +67,15 @@ Result<Model> read_model_bytes(std::span<const std::uint8_t> bytes, const std::s
 Model make_plane(Vec2 size);
 
 struct AttachOptions {
-    std::string material;  // name; empty: the only material that a triangle primitive uses
+    // Name; empty: the only material that a triangle primitive uses. Triangles without a material count as one named
+    // "default", which is made when the pattern goes onto it.
+    std::string material;
     int tex_coord = 0;     // which uv set the pattern lies in, [0, 7]
 };
 
 // Where a pattern would go: to be asked before a long conversion.
 struct MaterialTarget {
-    std::size_t index = 0;  // in the document
+    std::size_t index = 0;  // in the document; one past its materials for a "default" that will be made
     std::string name;
     // Mean length in metres of one uv unit along u and along v, over the material's triangles, by area, at the scale
     // in which the default scene shows them: the natural `size` of a pattern that covers uv 0 to 1.
