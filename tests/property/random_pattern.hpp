@@ -24,13 +24,9 @@ namespace burin::testing {
 // splitmix64: small, fast, the same everywhere.
 class Random {
   public:
-    explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15ull + 0x2545f4914f6cdd1dull) {}
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-        return z ^ (z >> 31);
-    }
+    // The seed is mixed first: neighbouring seeds must not give the same numbers one step later.
+    explicit Random(std::uint64_t seed) : state_(mix(seed + 0x2545f4914f6cdd1dull)) {}
+    std::uint64_t bits() { return mix(state_ += 0x9e3779b97f4a7c15ull); }
     double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  // [0, 1)
     double between(double low, double high) { return low + (high - low) * uniform(); }
     int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
@@ -41,6 +37,11 @@ class Random {
     }
 
   private:
+    static std::uint64_t mix(std::uint64_t z) {
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+        return z ^ (z >> 31);
+    }
     std::uint64_t state_;
 };
 
