@@ -428,11 +428,11 @@ CellCode Packer::encode_cell(std::size_t cell, std::size_t count, std::uint32_t 
     return code;
 }
 
-// Sides of the data texture: near a square, with as few texels left over as any width there gives.
+// Sides of the data texture: not far from a square, with as few texels left over as any such width gives.
 void choose_sides(std::size_t texels, int& width, int& height) {
     const auto root = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(texels))));
     std::size_t best = std::max<std::size_t>(root, 1), best_area = ~std::size_t{0};
-    for (std::size_t w = best; w <= 2 * root && w <= BURIN_MAX_TEXTURE_SIDE; ++w) {
+    for (std::size_t w = best; w <= 8 * root && w <= BURIN_MAX_TEXTURE_SIDE; ++w) {
         const std::size_t area = (texels + w - 1) / w * w;
         if (area < best_area) best_area = area, best = w;
     }
