@@ -134,14 +134,15 @@ void keep_on_line(const Pattern& original, Pattern& moved, std::size_t path, boo
 
 Pattern plate(int texels, const Walls& walls) {
     Drawing d(texels, walls);
+    // Axis-aligned walls lie on multiples of 1/40 of a unit, where 40 samples a side integrate them exactly.
     // Long lines that cross, axis-aligned and oblique.
     d.lines({{17.3, 33.45}, {494.6, 33.45}});
-    d.lines({{58.71, 12.2}, {58.71, 301.7}});
+    d.lines({{58.725, 12.2}, {58.725, 301.7}});
     d.lines({{21.4, 291.3}, {197.9, 47.6}});
     d.lines({{90.2, 21.8}, {236.1, 298.4}});
     d.lines({{30.6, 171.2}, {243.7, 201.9}});
     // Stems that end on an axis-aligned line, on an oblique one (below), on an arc.
-    d.lines({{290.37, 33.45}, {290.37, 121.8}});
+    d.lines({{290.375, 33.45}, {290.375, 121.8}});
     d.lines({{345.2, 33.45}, {318.9, 118.3}});
     d.lines({{lerp({30.6, 171.2}, {243.7, 201.9}, 0.8)}, {219.3, 128.4}});
     d.arc({420.3, 120.7}, 47.3, -2.6, 2.1);

@@ -24,8 +24,8 @@
 namespace burin::bench {
 namespace {
 
-constexpr int kMapSamples = 32;   // per side of a map texel
-constexpr int kFineSamples = 2;   // per side of a texel of the zoomed surface
+constexpr int kMapSamples = 40;   // per side of a map texel
+constexpr int kFineSamples = 6;   // per side of a texel of the zoomed surface
 constexpr int kPart = 512;        // texels of the zoomed surface worked on at a time
 
 struct Options {

@@ -17,6 +17,7 @@ namespace refinement {
 namespace {
 
 constexpr double kLeastThreshold = 0.004;  // map scale: one step of an 8-bit map
+constexpr double kLeastDeviation = 1e-5;    // map scale: rounding of a 16-bit map
 constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e4;
@@ -68,16 +69,20 @@ double root_mean_square(const std::vector<Residual>& residuals) {
     return residuals.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(residuals.size()));
 }
 
-// Huber's threshold from the spread of the residuals on walls, where misplacement shows.
-double threshold_of(const std::vector<Residual>& residuals) {
+// Standard deviation of the residuals on walls, where misplacement shows; outliers do not count.
+double deviation_of(const std::vector<Residual>& residuals) {
     std::vector<float> magnitudes;
     for (const Residual& r : residuals)
         if (r.steep) magnitudes.push_back(std::abs(r.value));
-    if (magnitudes.empty()) return kLeastThreshold;
+    if (magnitudes.empty()) return kLeastDeviation;
     const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
     std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-    return std::max(kLeastThreshold, kThresholdInDeviations * 1.4826 * *middle);
+    return std::max(kLeastDeviation, 1.4826 * *middle);
 }
+
+// Huber's.
+double threshold_of(double deviation) { return std::max(kLeastThreshold, kThresholdInDeviations * deviation); }
+
 
 struct State {
     Pattern pattern;
@@ -85,6 +90,14 @@ struct State {
     std::vector<ElementUnknowns> elements;
     Prediction prediction;
 };
+
+// What a step has to lower: the misfit, and the springs at the strength the misfit leaves them.
+double cost_of(const State& state, double deviation) {
+    double springs = 0.0;
+    for (std::size_t i = 0; i < state.parameters.moved().size(); ++i)
+        springs += state.parameters.stiffness()[i] * state.parameters.moved()[i] * state.parameters.moved()[i];
+    return robust_cost(state.prediction.residuals, threshold_of(deviation)) + 0.5 * deviation * deviation * springs;
+}
 
 class Refinement {
   public:
@@ -112,14 +125,15 @@ class Refinement {
         report.unknowns = best.parameters.count();
         double damping = kFirstDamping;
         while (report.iterations < options_.iterations && damping < kMostDamping && report.unknowns > 0) {
-            const NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
+            const double deviation = deviation_of(best.prediction.residuals);
+            NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
+            equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
             State next{best.pattern, best.parameters, {}, {}};
             next.parameters.apply(equations.step(damping), options_.max_shift_texels, next.pattern);
-            const double next_threshold = threshold_of(best.prediction.residuals);
             ++report.iterations;
-            const bool resolves = predict(next, next_threshold).ok();
-            const double before = robust_cost(best.prediction.residuals, next_threshold);
-            const double after = resolves ? robust_cost(next.prediction.residuals, next_threshold) : 1e300;
+            const bool resolves = predict(next, threshold_of(deviation)).ok();
+            const double before = cost_of(best, deviation);
+            const double after = resolves ? cost_of(next, deviation) : 1e300;
             if (after >= before) {
                 damping = std::max(10.0 * damping, 1e-2);
                 continue;
@@ -130,7 +144,7 @@ class Refinement {
         }
         report.rms_after = root_mean_square(best.prediction.residuals);
         report.largest_shift_texels = best.parameters.largest_shift();
-        const double threshold = threshold_of(best.prediction.residuals);
+        const double threshold = threshold_of(deviation_of(best.prediction.residuals));
         return robust_cost(best.prediction.residuals, threshold) < robust_cost(first, threshold);
     }
 

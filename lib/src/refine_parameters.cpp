@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kSameOffset = 1e-4;           // texels
 constexpr double kSameHeight = 1e-6;           // map scale
+// 1 / deviation^2 of what is expected before the map is asked: a point to move by a texel, a height by a twentieth.
+constexpr double kLoose = 1.0;
+// The errors of neighbouring texels are alike, so the map is trusted less than its texel count says.
+constexpr double kNarrowHeight = 10.0 * 400.0;
 constexpr double kSameLevel = 1.0 / 4096.0;    // map scale: levels that resolve takes for equal
 
 bool is_step(const Profile& profile) {
@@ -221,6 +225,8 @@ Parameters::Parameters(Pattern& pattern, const RefineOptions& options)
     scales_.resize(pattern.paths.size());
     for (std::size_t p = 0; p < pattern.paths.size(); ++p) scales_[p].resize(pattern.paths[p].elements.size());
     if (options.scales) number_scales(pattern);
+    moved_.assign(count_, 0.0);
+    stiffness_.resize(count_, kLoose);
     nodes_.write(pattern);
 }
 
@@ -282,7 +288,7 @@ void Parameters::number_offsets(const Profile& profile, bool narrow, ProfileTerm
     }
 }
 
-void Parameters::number_heights(const Profile& profile, bool narrow, const PathLevels* step, ProfileTerms& terms) {
+void Parameters::number_heights(const Profile& profile, bool free, const PathLevels* step, ProfileTerms& terms) {
     const std::size_t count = profile.points.size();
     const double low = profile.points.front().h, high = profile.points.back().h;
     std::vector<std::pair<double, int>> known;
@@ -293,7 +299,7 @@ void Parameters::number_heights(const Profile& profile, bool narrow, const PathL
             if (level_unknown_[step->left] >= 0) terms.h[i].push_back({level_unknown_[step->left], -1.0});
             continue;
         }
-        if (narrow || std::abs(h - low) < kSameHeight) continue;
+        if (!free || std::abs(h - low) < kSameHeight) continue;
         const auto found = std::find_if(known.begin(), known.end(),
                                         [&](const auto& entry) { return std::abs(entry.first - h) < kSameHeight; });
         const int unknown = found != known.end() ? found->second : count_++;
@@ -316,7 +322,10 @@ void Parameters::number_profiles(const Pattern& pattern, const RefineOptions& op
         if (!used) continue;
         const bool narrow = !step && box_width(profile) * mean_scale(pattern, i) < options.narrow_texels;
         if (options.profiles) number_offsets(profile, narrow, profiles_[i]);
-        number_heights(profile, narrow || !options.profiles, step, profiles_[i]);
+        const int first_height = count_;
+        number_heights(profile, options.profiles, step, profiles_[i]);
+        stiffness_.resize(count_, kLoose);
+        for (int k = first_height; k < count_ && narrow; ++k) stiffness_[k] = kNarrowHeight;
     }
 }
 
@@ -348,6 +357,7 @@ void Parameters::number_scales(const Pattern& pattern) {
 
 void Parameters::apply(const std::vector<double>& step, double most_shift, Pattern& pattern) {
     assert(static_cast<int>(step.size()) == count_);
+    for (int i = 0; i < count_; ++i) moved_[i] += step[i];
     nodes_.move(step, most_shift);
     nodes_.write(pattern);
     apply_profiles(step, pattern);

@@ -43,6 +43,11 @@ class Parameters {
     Parameters(Pattern& pattern, const RefineOptions& options);
 
     int count() const { return count_; }
+
+    // How far each unknown has moved, and 1 / deviation^2 of what it was expected to move: the map alone does not hold
+    // a point's place along a straight line, or the depth of a groove narrower than a texel.
+    const std::vector<double>& moved() const { return moved_; }
+    const std::vector<double>& stiffness() const { return stiffness_; }
     double largest_shift() const { return nodes_.largest_shift(); }
 
     // Moves the pattern by `step`, keeping its structure.
@@ -56,7 +61,7 @@ class Parameters {
     void number_levels(const Pattern& pattern, bool free);
     void number_profiles(const Pattern& pattern, const RefineOptions& options);
     void number_offsets(const Profile& profile, bool narrow, ProfileTerms& terms);
-    void number_heights(const Profile& profile, bool narrow, const PathLevels* step, ProfileTerms& terms);
+    void number_heights(const Profile& profile, bool free, const PathLevels* step, ProfileTerms& terms);
     void number_scales(const Pattern& pattern);
     void apply_profiles(const std::vector<double>& step, Pattern& pattern) const;
     void apply_levels(const std::vector<double>& step, Pattern& pattern);
@@ -70,6 +75,7 @@ class Parameters {
     std::vector<PathLevels> path_levels_;
     int outer_level_ = 0;
     int count_ = 0;
+    std::vector<double> moved_, stiffness_;
 };
 
 }  // namespace burin::refinement

@@ -7,6 +7,7 @@
 namespace burin::refinement {
 namespace {
 
+constexpr double kFloor = 1e-6;  // squared map scale per squared unit of an unknown
 constexpr int kMostSteps = 400;
 constexpr double kReduction = 1e-8;  // of the squared preconditioned residual
 
@@ -46,6 +47,7 @@ NormalEquations::NormalEquations(int unknowns, const std::vector<ElementUnknowns
                                  const Prediction& prediction)
     : first_(static_cast<std::size_t>(unknowns) + 1, 0),
       diagonal_(static_cast<std::size_t>(unknowns), 0.0),
+      springs_(static_cast<std::size_t>(unknowns), 0.0),
       gradient_(static_cast<std::size_t>(unknowns), 0.0) {
     for (const Equations& part : prediction.parts)
         for (std::size_t e = 0; e < part.gradients.size(); ++e)
@@ -71,6 +73,13 @@ NormalEquations::NormalEquations(int unknowns, const std::vector<ElementUnknowns
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
 }
 
+void NormalEquations::add_springs(const std::vector<double>& weight, double factor, const std::vector<double>& moved) {
+    for (std::size_t i = 0; i < springs_.size(); ++i) {
+        springs_[i] += factor * weight[i];
+        gradient_[i] += factor * weight[i] * moved[i];
+    }
+}
+
 void NormalEquations::multiply(const std::vector<double>& x, const std::vector<double>& damped,
                                std::vector<double>& out) const {
     for (std::size_t row = 0; row < x.size(); ++row) {
@@ -85,7 +94,7 @@ std::vector<double> NormalEquations::step(double damping) const {
     // A floor keeps what the map hardly shows from being thrown far.
     std::vector<double> damped(count), inverse(count, 0.0);
     for (std::size_t i = 0; i < count; ++i) {
-        damped[i] = damping * diagonal_[i] + 1e-5;
+        damped[i] = damping * diagonal_[i] + springs_[i] + kFloor;
         if (diagonal_[i] > 0.0) inverse[i] = 1.0 / (diagonal_[i] + damped[i]);
     }
     std::vector<double> x(count, 0.0), r(count), z(count), d(count), q(count);

@@ -13,10 +13,11 @@ class NormalEquations {
     // Sums the parts in their order: the result does not depend on who computed them.
     NormalEquations(int unknowns, const std::vector<ElementUnknowns>& elements, const Prediction& prediction);
 
+    // Adds springs: weight_i / 2 * (moved_i + step_i)^2.
+    void add_springs(const std::vector<double>& weight, double factor, const std::vector<double>& moved);
+
     // Step that minimizes the quadratic model plus damping * diagonal. Unknowns that nothing depends on stay.
     std::vector<double> step(double damping) const;
-
-    const std::vector<double>& gradient() const { return gradient_; }
 
   private:
     void multiply(const std::vector<double>& x, const std::vector<double>& damped, std::vector<double>& out) const;
@@ -25,6 +26,7 @@ class NormalEquations {
     std::vector<int> column_;
     std::vector<double> value_;
     std::vector<double> diagonal_;
+    std::vector<double> springs_;
     std::vector<double> gradient_;
 };
 
