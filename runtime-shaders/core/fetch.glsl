@@ -38,7 +38,7 @@ uint burin_reference(int index) {
 
 // Exact in float: 20 bits of code, a power of two, and whole tiles.
 vec2 burin_vertex_uv(uint x, uint y) {
-    return vec2(float(x & 0xfffffu), float(y & 0xfffffu)) * (1.0f / 524288.0f) - vec2(0.5f, 0.5f);
+    return vec2(float(x & 0xfffffu), float(y & 0xfffffu)) * (1.0f / float(BURIN_COORDINATE_STEPS)) - vec2(0.5f, 0.5f);
 }
 
 vec2 burin_direction(vec2 v, vec2 otherwise) {
@@ -47,7 +47,7 @@ vec2 burin_direction(vec2 v, vec2 otherwise) {
 }
 
 float burin_scale(uint code) {
-    return float(code & 0xffffu) * (1.0f / 16384.0f);
+    return float(code & 0xffffu) * (1.0f / float(BURIN_SCALE_STEPS));
 }
 
 // The element as seen from `origin`, in the tile image whose chord is nearest to the cell's centre.
@@ -79,8 +79,8 @@ BurinElement burin_element(uint reference, vec2 origin, vec2 centre) {
     e.t2 = e.curved ? burin_direction(e.p2 - e.p1, chord) : chord;
     e.kind0 = (a.z >> 20) & 15u;
     e.kind2 = (a.z >> 24) & 15u;
-    e.clip0 = float(a.x >> 20) * (3.14159265f / 4096.0f);
-    e.clip2 = float(a.y >> 20) * (3.14159265f / 4096.0f);
+    e.clip0 = float(a.x >> 20) * (3.14159265f / float(BURIN_CLIP_ANGLE_STEPS));
+    e.clip2 = float(a.y >> 20) * (3.14159265f / float(BURIN_CLIP_ANGLE_STEPS));
     e.style = a.w >> 20;
     return e;
 }
@@ -103,4 +103,22 @@ vec2 burin_profile_point(BurinStyle style, int i) {
     uvec4 texel = fetch_data(style.first + i / BURIN_POINTS_PER_TEXEL);
     uint word = burin_word(texel, i % BURIN_POINTS_PER_TEXEL);
     return vec2(burin_snorm16(word & 0xffffu), burin_snorm16(word >> 16));
+}
+
+struct BurinMaterial {
+    bool overrides;    // false: the glTF material holds
+    vec4 base_color;  // linear
+    float metallic;
+    float roughness;
+};
+
+BurinMaterial burin_material(uint index) {
+    uvec4 texel = fetch_data(burin_map.first_material + int(index));
+    BurinMaterial material;
+    material.overrides = ((texel.y >> 16) & 1u) != 0u;
+    material.base_color = vec4(float(texel.x & 255u), float((texel.x >> 8) & 255u), float((texel.x >> 16) & 255u),
+                               float(texel.x >> 24)) * (1.0f / 255.0f);
+    material.metallic = float(texel.y & 255u) / 255.0f;
+    material.roughness = float((texel.y >> 8) & 255u) / 255.0f;
+    return material;
 }

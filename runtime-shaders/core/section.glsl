@@ -21,11 +21,11 @@ struct BurinEvents {
     float add;  // next crossing of the add's border after `add_from`
     int add_facet;
     bool add_enters;
-    bool add_at_end;  // whether qb lies in the add
+    bool add_at_end;  // whether the ray lies in the add where it reaches the ground or the stretch ends
     float cut;        // the same for the cut after `cut_from`
     int cut_facet;
     bool cut_leaves;
-    bool cut_at_end;
+    bool cut_at_end;  // whether the end of the stretch lies in the cut
 };
 
 // Drop where the stretch ta-tb crosses the line through `anchor` with normal `across`; fa, fb: values at its ends.
@@ -57,7 +57,7 @@ float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRa
 }
 
 BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
-                         bool straight, float add_from, float cut_from) {
+                         bool straight, vec2 add_range, float cut_from) {
     BurinEvents found;
     found.add = 1.0e30f;
     found.cut = 1.0e30f;
@@ -68,6 +68,8 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
     found.add_at_end = false;
     found.cut_at_end = false;
     vec2 d = qb - qa;
+    // An add ends at the ground; below it the profile says nothing about it.
+    vec2 qe = mix(qa, qb, clamp((add_range.y - range.x) / (range.y - range.x), 0.0f, 1.0f));
     vec2 last = vec2(0.0f, 0.0f);
     bool last_left = false;
     bool last_internal = false;
@@ -79,10 +81,11 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
         bool left = d.x * (point.y - qa.y) - d.y * (point.x - qa.x) > 0.0f;
         vec2 edge = point - last;
         bool facet = i > 0 && i < style.count;
-        if (facet && (last.x <= qb.x) != (point.x <= qb.x)) {
-            float h = last.y + edge.y * ((qb.x - last.x) / edge.x);
-            if (h > qb.y) found.add_at_end = !found.add_at_end;
-            else if (internal) run_odd = !run_odd;
+        if (facet && (last.x <= qe.x) != (point.x <= qe.x)) {
+            if (last.y + edge.y * ((qe.x - last.x) / edge.x) > qe.y) found.add_at_end = !found.add_at_end;
+        }
+        if (internal && (last.x <= qb.x) != (point.x <= qb.x)) {
+            if (last.y + edge.y * ((qb.x - last.x) / edge.x) <= qb.y) run_odd = !run_odd;
         }
         if (last_internal && !internal) {
             found.cut_at_end = found.cut_at_end || run_odd;
@@ -99,7 +102,7 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
             if (!straddles || (fa > 0.0f) == (fb > 0.0f)) continue;
             float t = burin_crossing(e, style, piece, ray, range, vec2(fa, fb), last, across, straight);
             bool inwards = fa > 0.0f;
-            if (k == 0 && t > add_from && t < found.add) {
+            if (k == 0 && t > add_range.x && t < min(found.add, add_range.y)) {
                 found.add = t;
                 found.add_facet = i - 1;
                 found.add_enters = inwards;

@@ -11,8 +11,8 @@ void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ra
     pass.pieces = pass.pieces + 1;
     float same = BURIN_SAME_DROP * burin_map.depth;
     float add_from = max(pass.from, range.x);
-    BurinEvents next = burin_events(e, style, piece, ray, range, qa, qb, straight,
-                                    add_from > pass.from ? add_from : pass.from + same, pass.air + same);
+    vec2 add_range = vec2(add_from > pass.from ? add_from : pass.from + same, pass.ground);
+    BurinEvents next = burin_events(e, style, piece, ray, range, qa, qb, straight, add_range, pass.air + same);
     mark.wall = range.y == piece.hi ? piece.hi_wall : vec2(0.0f, 0.0f);
     if (range.x <= pass.air && pass.air < range.y) {
         bool crossed = next.cut < 1.0e29f;
@@ -154,7 +154,7 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
         }
         if (probe >= stretch.y) return false;
         if (pass.air <= probe) {
-            if (!at_add && probe > at) {
+            if (!at_add && ground >= at - BURIN_SAME_DROP * burin_map.depth) {
                 hit.mark.element = BURIN_NO_ELEMENT;
                 hit.mark.facet = BURIN_FACET_GROUND;
             }

@@ -1,0 +1,15 @@
+# cmake -DOUTPUT=file.cpp "-DPARTS=name=path;..." -P embed.cmake: each text file as a C++ string of that name.
+# A raw string ends at 16 KiB for some compilers, so that each line gets its own literal.
+set(text "// Made by embed.cmake.\n#include \"gl/shader_text.hpp\"\n\nnamespace burin::gl::shader_text {\n\n")
+string(REPLACE "|" ";" PARTS "${PARTS}")
+foreach(part IN LISTS PARTS)
+    string(REGEX MATCH "^([^=]+)=(.*)$" matched "${part}")
+    file(READ "${CMAKE_MATCH_2}" body)
+    set(name "${CMAKE_MATCH_1}")
+    string(REPLACE "\\" "\\\\" body "${body}")
+    string(REPLACE "\"" "\\\"" body "${body}")
+    string(REPLACE "\n" "\\n\"\n    \"" body "${body}")
+    string(APPEND text "extern const char ${name}[] =\n    \"${body}\";\n\n")
+endforeach()
+string(APPEND text "}  // namespace burin::gl::shader_text\n")
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,175 @@
+#include "gl/program.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "gl/shader_text.hpp"
+
+namespace burin::gl {
+namespace {
+
+constexpr const char* kVersion =
+    "#version 330 core\n#define BURIN_OUT(type) out type\n#define BURIN_INOUT(type) inout type\n";
+
+// Log of a shader or program, shortened to its first lines.
+template <typename Query, typename Log>
+std::string log_of(Query query, Log log, GLuint id) {
+    GLint length = 0;
+    query(id, GL_INFO_LOG_LENGTH, &length);
+    std::string text(std::size_t(std::max(length, 1)), '\0');
+    log(id, length, &length, text.data());
+    text.resize(std::size_t(std::clamp(length, 0, 400)));
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+Result<GLuint> compile(const Functions& gl, GLenum kind, const std::string& text) {
+    const GLuint id = gl.CreateShader(kind);
+    const char* source = text.c_str();
+    gl.ShaderSource(id, 1, &source, nullptr);
+    gl.CompileShader(id);
+    GLint ok = 0;
+    gl.GetShaderiv(id, GL_COMPILE_STATUS, &ok);
+    if (ok == GL_TRUE) return id;
+    Error error{ErrorCode::unavailable,
+                "the driver refuses a shader: " + log_of(gl.GetShaderiv, gl.GetShaderInfoLog, id)};
+    gl.DeleteShader(id);
+    return error;
+}
+
+GLuint make_texture(const Functions& gl, GLint format, GLenum layout, int width, int height,
+                    const std::vector<std::uint32_t>& words, std::size_t per_texel) {
+    // A texture of whole rows, whatever the vector holds.
+    std::vector<std::uint32_t> padded(words);
+    padded.resize(std::size_t(width) * std::size_t(height) * per_texel);
+    GLuint name = 0;
+    gl.GenTextures(1, &name);
+    gl.BindTexture(GL_TEXTURE_2D, name);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, GL_UNSIGNED_INT, padded.data());
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return name;
+}
+
+}  // namespace
+
+std::string fragment_text(Stage stage) {
+    std::string text = kVersion;
+    text += shader_text::layout;
+    text += shader_text::types;
+    text += shader_text::bindings;
+    for (const char* part : {shader_text::fetch, shader_text::curve, shader_text::domain, shader_text::section,
+                             shader_text::ground, shader_text::trace, shader_text::surface})
+        text += part;
+    text += stage == Stage::rays ? shader_text::rays_frag
+                                 : (stage == Stage::top ? shader_text::top_frag : shader_text::surface_frag);
+    return text;
+}
+
+Result<Program> Program::build(const Functions& gl, Stage stage) {
+    const std::string vertex_text =
+        std::string(kVersion) + (stage == Stage::surface ? shader_text::surface_vert : shader_text::screen_vert);
+    auto vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
+    if (!vertex) return vertex.error();
+    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage));
+    if (!fragment) {
+        gl.DeleteShader(*vertex);
+        return fragment.error();
+    }
+    Program program(gl, gl.CreateProgram());
+    for (GLuint shader : {*vertex, *fragment}) {
+        gl.AttachShader(program.id_, shader);
+        gl.DeleteShader(shader);
+    }
+    gl.LinkProgram(program.id_);
+    GLint ok = 0;
+    gl.GetProgramiv(program.id_, GL_LINK_STATUS, &ok);
+    if (ok != GL_TRUE)
+        return Error{ErrorCode::unavailable, "the driver does not link a shader: " +
+                                                 log_of(gl.GetProgramiv, gl.GetProgramInfoLog, program.id_)};
+    return Result<Program>(std::move(program));
+}
+
+Program::Program(Program&& other) noexcept : gl_(other.gl_), id_(std::exchange(other.id_, 0)) {}
+
+Program::~Program() {
+    if (id_ != 0) gl_->DeleteProgram(id_);
+}
+
+DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textures, const PathDetail& detail)
+    : gl_(gl),
+      detail_(detail),
+      sections_(textures.sections),
+      data_width_(textures.data_width),
+      grid_width_(textures.grid_width),
+      grid_height_(textures.grid_height) {
+    names_[0] = make_texture(gl, GL_RG32UI, GL_RG_INTEGER, grid_width_, grid_height_, textures.grid, 2);
+    names_[1] = make_texture(gl, GL_RGBA32UI, GL_RGBA_INTEGER, data_width_, textures.data_height, textures.data, 4);
+}
+
+DetailTextures::~DetailTextures() { gl_.DeleteTextures(2, names_); }
+
+void DetailTextures::bind(const Program& program) const {
+    for (int i = 0; i < 2; ++i) {
+        gl_.ActiveTexture(GLenum(GL_TEXTURE0 + i));
+        gl_.BindTexture(GL_TEXTURE_2D, names_[i]);
+    }
+    program.set("burin_grid", 0);
+    program.set("burin_data", 1);
+    program.set("burin_data_width", data_width_);
+    program.set("burin_map.size", float(detail_.size_u), float(detail_.size_v));
+    program.set("burin_map.depth", float(detail_.depth));
+    program.set("burin_map.outer_level", float(detail_.base_offset - detail_.outer_level));
+    program.set("burin_map.repeats", detail_.repeat ? 1 : 0);
+    gl_.Uniform2i(program.at("burin_map.cells"), grid_width_, grid_height_);
+    program.set("burin_map.first_style", int(sections_.styles_begin()));
+    program.set("burin_map.first_profile", int(sections_.profiles_begin()));
+    program.set("burin_map.first_material", int(sections_.materials_begin()));
+    program.set("burin_map.first_list", int(sections_.lists_begin()));
+}
+
+Result<std::unique_ptr<FloatTarget>> FloatTarget::create(const Functions& gl, int width, int height, int colors,
+                                                         bool depth) {
+    std::unique_ptr<FloatTarget> target(new FloatTarget(gl, width, height));
+    gl.GenFramebuffers(1, &target->framebuffer_);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target->framebuffer_);
+    std::vector<GLenum> draw;
+    for (int i = 0; i < colors + (depth ? 1 : 0); ++i) {
+        const bool is_color = i < colors;
+        GLuint buffer = 0;
+        gl.GenRenderbuffers(1, &buffer);
+        target->buffers_.push_back(buffer);
+        gl.BindRenderbuffer(GL_RENDERBUFFER, buffer);
+        gl.RenderbufferStorage(GL_RENDERBUFFER, is_color ? GL_RGBA32F : GL_DEPTH_COMPONENT32F, width, height);
+        const GLenum attachment = is_color ? GLenum(GL_COLOR_ATTACHMENT0 + i) : GLenum(GL_DEPTH_ATTACHMENT);
+        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
+        if (is_color) draw.push_back(attachment);
+    }
+    gl.DrawBuffers(GLsizei(draw.size()), draw.data());
+    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || gl.GetError() != GL_NO_ERROR)
+        return Error{ErrorCode::unavailable, "the driver has no float target of " + std::to_string(width) + "x" +
+                                                 std::to_string(height) + " pixels"};
+    return target;
+}
+
+FloatTarget::~FloatTarget() {
+    gl_.DeleteRenderbuffers(GLsizei(buffers_.size()), buffers_.data());
+    if (framebuffer_ != 0) gl_.DeleteFramebuffers(1, &framebuffer_);
+}
+
+void FloatTarget::bind() const {
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    gl_.Viewport(0, 0, width_, height_);
+}
+
+std::vector<float> FloatTarget::read(int color) const {
+    std::vector<float> pixels(std::size_t(width_) * std::size_t(height_) * 4);
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    gl_.ReadBuffer(GLenum(GL_COLOR_ATTACHMENT0 + color));
+    gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, pixels.data());
+    return pixels;
+}
+
+}  // namespace burin::gl

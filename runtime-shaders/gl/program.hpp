@@ -1,0 +1,83 @@
+// Programs of the renderer, their uniforms, textures and float targets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <burin/format/extension.hpp>
+#include <burin/format/texels.hpp>
+#include <burin/result.hpp>
+
+#include "gl/context.hpp"
+
+namespace burin::gl {
+
+// Which fragment shader of this folder a program ends in.
+enum class Stage { rays, top, surface };
+
+// Text of a fragment shader as the driver gets it: version, layout.h, core, bindings, main.
+std::string fragment_text(Stage stage);
+
+class Program {
+  public:
+    // Fails with unavailable, carrying the driver's log.
+    static Result<Program> build(const Functions& gl, Stage stage);
+    Program(Program&& other) noexcept;
+    Program& operator=(Program&&) = delete;
+    ~Program();
+
+    void use() const { gl_->UseProgram(id_); }
+    GLint at(const char* name) const { return gl_->GetUniformLocation(id_, name); }
+    void set(const char* name, int v) const { gl_->Uniform1i(at(name), v); }
+    void set(const char* name, float v) const { gl_->Uniform1f(at(name), v); }
+    void set(const char* name, float x, float y) const { gl_->Uniform2f(at(name), x, y); }
+    void set(const char* name, float x, float y, float z) const { gl_->Uniform3f(at(name), x, y, z); }
+
+  private:
+    Program(const Functions& gl, GLuint id) : gl_(&gl), id_(id) {}
+    const Functions* gl_;
+    GLuint id_;
+};
+
+// The two textures of a pattern on texture units 0 and 1.
+class DetailTextures {
+  public:
+    DetailTextures(const Functions& gl, const PackedTextures& textures, const PathDetail& detail);
+    DetailTextures(const DetailTextures&) = delete;
+    DetailTextures& operator=(const DetailTextures&) = delete;
+    ~DetailTextures();
+
+    // Requires: `program` is in use. Sets the textures and burin_map.
+    void bind(const Program& program) const;
+
+  private:
+    const Functions& gl_;
+    PathDetail detail_;
+    Sections sections_;
+    int data_width_;
+    int grid_width_, grid_height_;
+    GLuint names_[2] = {0, 0};
+};
+
+// A framebuffer of RGBA float colours, with depth if asked.
+class FloatTarget {
+  public:
+    static Result<std::unique_ptr<FloatTarget>> create(const Functions& gl, int width, int height, int colors,
+                                                       bool depth);
+    FloatTarget(const FloatTarget&) = delete;
+    FloatTarget& operator=(const FloatTarget&) = delete;
+    ~FloatTarget();
+
+    void bind() const;
+    // Four floats per pixel, lower row first.
+    std::vector<float> read(int color) const;
+
+  private:
+    FloatTarget(const Functions& gl, int width, int height) : gl_(gl), width_(width), height_(height) {}
+    const Functions& gl_;
+    int width_, height_;
+    GLuint framebuffer_ = 0;
+    std::vector<GLuint> buffers_;
+};
+
+}  // namespace burin::gl

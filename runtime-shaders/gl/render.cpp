@@ -1,0 +1,307 @@
+// Pictures of an asset: every mesh with its material, several passes with shifted pixels, averaged.
+#include "gl/render.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "gl/program.hpp"
+
+namespace burin {
+namespace {
+
+struct Bounds {
+    glm::dvec3 low{1e300}, high{-1e300};
+    glm::dvec3 middle() const { return (low + high) * 0.5; }
+    double radius() const { return glm::length(high - low) * 0.5; }
+};
+
+// Where the camera stands and what it sees.
+struct View {
+    glm::dvec3 eye, direction, up;
+    glm::dmat4 to_view{1.0};
+    double half_height = 0.0;  // of the picture at distance 1, or in metres when orthographic
+    double near = 0.0, far = 1.0;
+};
+
+glm::dvec3 vertex(const std::vector<float>& values, std::uint32_t i) {
+    return {double(values[3 * i]), double(values[3 * i + 1]), double(values[3 * i + 2])};
+}
+
+glm::dvec3 direction_of(double azimuth, double elevation) {
+    const double a = glm::radians(azimuth), e = glm::radians(elevation);
+    return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+Bounds bounds_of(const Asset& asset) {
+    Bounds box;
+    for (const Primitive& primitive : asset.primitives) {
+        for (std::uint32_t i : primitive.indices) {
+            const glm::dvec3 p = vertex(primitive.positions, i);
+            box.low = glm::min(box.low, p);
+            box.high = glm::max(box.high, p);
+        }
+    }
+    return box;
+}
+
+// World point of a triangle at a point of the uv plane.
+std::optional<glm::dvec3> point_at(const Primitive& primitive, std::size_t first, Vec2 uv) {
+    glm::dvec3 corner[3];
+    Vec2 at[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t i = primitive.indices[first + k];
+        corner[k] = vertex(primitive.positions, i);
+        at[k] = {double(primitive.uvs[2 * i]), double(primitive.uvs[2 * i + 1])};
+    }
+    const double area = cross(at[1] - at[0], at[2] - at[0]);
+    if (area == 0.0) return std::nullopt;
+    const double b = cross(uv - at[0], at[2] - at[0]) / area;
+    const double c = cross(at[1] - at[0], uv - at[0]) / area;
+    if (b < -1e-9 || c < -1e-9 || b + c > 1.0 + 1e-9) return std::nullopt;
+    return corner[0] + b * (corner[1] - corner[0]) + c * (corner[2] - corner[0]);
+}
+
+glm::dvec3 target_of(const Asset& asset, const Camera& camera, const Bounds& box) {
+    if (camera.target) return {(*camera.target)[0], (*camera.target)[1], (*camera.target)[2]};
+    if (camera.center) {
+        for (const Primitive& primitive : asset.primitives) {
+            if (!asset.materials[std::size_t(primitive.material)].has_detail) continue;
+            for (std::size_t first = 0; first + 2 < primitive.indices.size(); first += 3)
+                if (auto point = point_at(primitive, first, *camera.center)) return *point;
+        }
+    }
+    return box.middle();
+}
+
+// Half the picture's height, at distance 1 from the eye, that shows every vertex.
+double half_height_for(const Asset& asset, const View& view, bool orthographic, double aspect) {
+    double half = 1e-9;
+    for (const Primitive& primitive : asset.primitives) {
+        for (std::uint32_t i : primitive.indices) {
+            const glm::dvec3 p = view.to_view * glm::dvec4(vertex(primitive.positions, i), 1.0);
+            const double distance = orthographic ? 1.0 : std::max(-p.z, 1e-9);
+            half = std::max({half, std::abs(p.y) / distance, std::abs(p.x) / (aspect * distance)});
+        }
+    }
+    return half * 1.03;
+}
+
+// Distance along the line of sight at which the asset just fits the angle of view.
+double distance_for(const Asset& asset, const View& view, glm::dvec3 target, double tangent, double aspect) {
+    const glm::dvec3 right = glm::normalize(glm::cross(view.direction, view.up));
+    const glm::dvec3 top = glm::cross(right, view.direction);
+    double distance = 1e-6;
+    for (const Primitive& primitive : asset.primitives) {
+        for (std::uint32_t i : primitive.indices) {
+            const glm::dvec3 q = vertex(primitive.positions, i) - target;
+            const double sideways = std::max(std::abs(glm::dot(q, top)), std::abs(glm::dot(q, right)) / aspect);
+            distance = std::max(distance, sideways * 1.03 / tangent - glm::dot(q, view.direction));
+        }
+    }
+    return distance;
+}
+
+View place_camera(const Asset& asset, const RenderOptions& options) {
+    const Camera& camera = options.camera;
+    const Bounds box = bounds_of(asset);
+    const glm::dvec3 target = target_of(asset, camera, box);
+    const double aspect = double(options.width) / options.height;
+    const double radius = std::max(box.radius(), 1e-9);
+    View view;
+    view.direction = -direction_of(camera.azimuth, camera.elevation);
+    const double a = glm::radians(camera.azimuth);
+    // Straight above, up is away from where the camera would stand in front.
+    view.up = std::abs(camera.elevation) > 89.9 ? glm::dvec3(-std::sin(a), 0.0, -std::cos(a)) : glm::dvec3(0, 1, 0);
+    const double tangent = std::tan(glm::radians(camera.field_of_view) * 0.5);
+    view.half_height = tangent;
+    if (camera.eye) {
+        view.eye = {(*camera.eye)[0], (*camera.eye)[1], (*camera.eye)[2]};
+        view.direction = glm::normalize(target - view.eye);
+        view.up = std::abs(view.direction.y) > 0.999 ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
+    } else if (camera.orthographic) {
+        view.eye = target - view.direction * (radius * 4.0);
+    } else {
+        view.eye = target - view.direction * distance_for(asset, view, target, tangent, aspect);
+    }
+    view.to_view = glm::lookAt(view.eye, view.eye + view.direction, view.up);
+    if (camera.orthographic) view.half_height = half_height_for(asset, view, true, aspect);
+    if (!camera.eye) view.half_height /= camera.zoom;
+    const double depth_middle = glm::dot(box.middle() - view.eye, view.direction);
+    view.far = std::max(depth_middle + radius * 1.1, radius * 1e-3);
+    view.near = std::max(depth_middle - radius * 1.1, camera.orthographic ? -1e30 : view.far * 1e-4);
+    return view;
+}
+
+// Matrix of the view with the picture moved by (x, y) of a pixel.
+glm::mat4 projection(const View& view, const RenderOptions& options, double x, double y) {
+    const double h = view.half_height, w = h * options.width / options.height;
+    glm::dmat4 clip;
+    if (options.camera.orthographic)
+        clip = glm::ortho(-w, w, -h, h, view.near, view.far);
+    else
+        clip = glm::frustum(-w * view.near, w * view.near, -h * view.near, h * view.near, view.near, view.far);
+    const glm::dvec3 shift(2.0 * x / options.width, 2.0 * y / options.height, 0.0);
+    return glm::mat4(glm::translate(glm::dmat4(1.0), shift) * clip * view.to_view);
+}
+
+// One primitive as vertex arrays of its own.
+class Mesh {
+  public:
+    Mesh(const gl::Functions& gl, const Primitive& primitive) : gl_(gl), count_(GLsizei(primitive.indices.size())) {
+        gl_.GenVertexArrays(1, &array_);
+        gl_.BindVertexArray(array_);
+        gl_.GenBuffers(4, buffers_);
+        attribute(0, 3, primitive.positions);
+        attribute(1, 3, primitive.normals);
+        attribute(2, 2, primitive.uvs);
+        gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[3]);
+        gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(primitive.indices.size() * 4), primitive.indices.data(),
+                       GL_STATIC_DRAW);
+    }
+    Mesh(const Mesh&) = delete;
+    Mesh& operator=(const Mesh&) = delete;
+    ~Mesh() {
+        gl_.DeleteBuffers(4, buffers_);
+        gl_.DeleteVertexArrays(1, &array_);
+    }
+    void draw() const {
+        gl_.BindVertexArray(array_);
+        gl_.DrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr);
+    }
+
+  private:
+    void attribute(GLuint place, GLint components, const std::vector<float>& values) {
+        gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[place]);
+        gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * 4), values.data(), GL_STATIC_DRAW);
+        gl_.VertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, 0, nullptr);
+        gl_.EnableVertexAttribArray(place);
+    }
+
+    const gl::Functions& gl_;
+    GLsizei count_;
+    GLuint array_ = 0;
+    GLuint buffers_[4] = {0, 0, 0, 0};
+};
+
+// The asset in the context: meshes, textures and the program.
+struct Scene {
+    std::vector<std::unique_ptr<Mesh>> meshes;
+    std::vector<std::unique_ptr<gl::DetailTextures>> details;  // one per material, null without detail
+    std::unique_ptr<gl::DetailTextures> none;                  // stands in where a material has no detail
+};
+
+Scene load_scene(const gl::Functions& gl, const Asset& asset) {
+    Scene scene;
+    for (const Primitive& primitive : asset.primitives) scene.meshes.push_back(std::make_unique<Mesh>(gl, primitive));
+    for (const MaterialInfo& material : asset.materials)
+        scene.details.push_back(
+            material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail) : nullptr);
+    PackedTextures empty;
+    empty.grid_width = empty.grid_height = empty.data_width = empty.data_height = 1;
+    empty.grid.assign(2, 0);
+    empty.data.assign(4, 0);
+    scene.none = std::make_unique<gl::DetailTextures>(gl, empty, PathDetail{});
+    return scene;
+}
+
+void set_view(const gl::Program& program, const View& view, const RenderOptions& options) {
+    const glm::dvec3 to_light = direction_of(options.light.azimuth, options.light.elevation);
+    program.set("eye", float(view.eye.x), float(view.eye.y), float(view.eye.z));
+    const glm::dvec3 d = options.camera.orthographic ? view.direction : glm::dvec3(0.0);
+    program.set("view", float(d.x), float(d.y), float(d.z));
+    program.set("light", float(to_light.x), float(to_light.y), float(to_light.z));
+    program.set("light_strength", float(options.light.strength));
+    program.set("ambient", float(options.light.ambient));
+    program.set("shadows", options.shadows ? 1 : 0);
+}
+
+void draw_pass(const gl::Functions& gl, const gl::Program& program, const Asset& asset, const Scene& scene) {
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    for (std::size_t i = 0; i < asset.primitives.size(); ++i) {
+        const std::size_t index = std::size_t(asset.primitives[i].material);
+        const MaterialInfo& material = asset.materials[index];
+        (material.has_detail ? *scene.details[index] : *scene.none).bind(program);
+        program.set("has_detail", material.has_detail ? 1 : 0);
+        gl.Uniform4f(program.at("base_color"), material.base_color[0], material.base_color[1], material.base_color[2],
+                     material.base_color[3]);
+        program.set("metallic", material.metallic);
+        program.set("roughness", material.roughness);
+        // A mesh seen from behind shows nothing unless its material says so.
+        if (material.double_sided) gl.Disable(GL_CULL_FACE);
+        else gl.Enable(GL_CULL_FACE);
+        scene.meshes[i]->draw();
+    }
+    gl.Finish();
+}
+
+float to_linear(float s) { return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f); }
+
+std::uint8_t to_srgb(float linear) {
+    const float c = std::clamp(linear, 0.0f, 1.0f);
+    const float s = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+    return std::uint8_t(s * 255.0f + 0.5f);
+}
+
+RgbaImage to_image(const std::vector<float>& sum, int width, int height, float scale) {
+    RgbaImage image{width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height) * 4, 255)};
+    for (int y = 0; y < height; ++y) {
+        // The target's first row is the lowest one.
+        const float* from = &sum[std::size_t(height - 1 - y) * std::size_t(width) * 4];
+        std::uint8_t* to = &image.texels[std::size_t(y) * std::size_t(width) * 4];
+        for (int x = 0; x < width; ++x)
+            for (int k = 0; k < 3; ++k) to[4 * x + k] = to_srgb(from[4 * x + k] * scale);
+    }
+    return image;
+}
+
+Status check(const Asset& asset, const RenderOptions& options) {
+    const Camera& camera = options.camera;
+    if (options.width < 1 || options.height < 1 || options.width > 8192 || options.height > 8192)
+        return Error{ErrorCode::invalid_argument, "a picture's sides must be 1 to 8192 pixels"};
+    if (options.samples < 1 || options.samples > 256)
+        return Error{ErrorCode::invalid_argument, "samples per pixel must be 1 to 256"};
+    if (!(camera.zoom > 0.0) || !(camera.field_of_view > 0.0) || camera.field_of_view > 120.0)
+        return Error{ErrorCode::invalid_argument, "zoom must be above 0, the angle of view above 0 and at most 120 degrees"};
+    for (const Primitive& primitive : asset.primitives)
+        if (!primitive.indices.empty()) return Done{};
+    return Error{ErrorCode::invalid_input, "the asset has no triangle to draw"};
+}
+
+}  // namespace
+
+Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options) {
+    if (Status status = check(asset, options); !status) return status.error();
+    auto context = gl::open_context(options.backend);
+    if (!context) return context.error();
+    const gl::Functions& gl = (*context)->functions();
+    auto program = gl::Program::build(gl, gl::Stage::surface);
+    if (!program) return program.error();
+    auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
+    if (!target) return target.error();
+    const Scene scene = load_scene(gl, asset);
+    const View view = place_camera(asset, options);
+    program->use();
+    set_view(*program, view, options);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.CullFace(GL_BACK);
+    gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]), to_linear(options.background[2]),
+                  1.0f);
+    (*target)->bind();
+    const int side = int(std::ceil(std::sqrt(double(options.samples)) - 1e-9));
+    std::vector<float> sum(std::size_t(options.width) * std::size_t(options.height) * 4, 0.0f);
+    for (int k = 0; k < side * side; ++k) {
+        const glm::mat4 matrix = projection(view, options, (k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5);
+        gl.UniformMatrix4fv(program->at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix));
+        draw_pass(gl, *program, asset, scene);
+        const std::vector<float> pixels = (*target)->read(0);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += pixels[i];
+    }
+    return to_image(sum, options.width, options.height, 1.0f / float(side * side));
+}
+
+}  // namespace burin

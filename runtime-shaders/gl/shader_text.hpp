@@ -1,0 +1,9 @@
+// The shader files as strings, embedded when burin is built (embed.cmake), so that a program needs no file beside it.
+#pragma once
+
+namespace burin::gl::shader_text {
+
+extern const char layout[], types[], fetch[], curve[], domain[], section[], ground[], trace[], surface[];
+extern const char bindings[], rays_frag[], top_frag[], surface_frag[], screen_vert[], surface_vert[];
+
+}  // namespace burin::gl::shader_text

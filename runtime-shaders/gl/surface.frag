@@ -1,0 +1,93 @@
+// A material with path detail: the view ray goes into pattern space, the decoder finds what it meets, and that is
+// shaded and shadowed. Without detail the mesh itself is shaded.
+uniform vec3 eye;           // of a perspective camera
+uniform vec3 view;          // direction of an orthographic one; zero for perspective
+uniform vec3 light;         // towards the light, unit length
+uniform float light_strength;
+uniform float ambient;
+uniform vec4 base_color;    // linear
+uniform float metallic;
+uniform float roughness;
+uniform int has_detail;
+uniform int shadows;
+in vec3 world_position;
+in vec3 world_normal;
+in vec2 pattern_uv;
+layout(location = 0) out vec4 color;
+
+// Columns: world directions of one metre along x, y and z of pattern space.
+mat3 pattern_frame(vec3 n) {
+    vec3 px = dFdx(world_position);
+    vec3 py = dFdy(world_position);
+    vec2 ux = dFdx(pattern_uv) * burin_map.size;
+    vec2 uy = dFdy(pattern_uv) * burin_map.size;
+    float area = ux.x * uy.y - ux.y * uy.x;
+    area = abs(area) > 1.0e-30 ? area : 1.0e-30;
+    vec3 along_x = (px * uy.y - py * ux.y) / area;
+    vec3 along_y = (py * ux.x - px * uy.x) / area;
+    return mat3(along_x - n * dot(along_x, n), along_y - n * dot(along_y, n), n);
+}
+
+// Metres over the plane per metre of fall, of a direction that goes down.
+vec2 slope_of(vec3 direction) {
+    vec2 slope = direction.xy / max(-direction.z, 0.02 * length(direction) + 1.0e-12);
+    return slope;
+}
+
+// Lambert and GGX with Smith's shadowing, for one light; colours linear.
+vec3 shade(vec3 n, vec3 to_eye, vec3 albedo, float metal, float rough, float lit) {
+    vec3 halfway = normalize(to_eye + light);
+    float nl = max(dot(n, light), 0.0);
+    float nv = max(dot(n, to_eye), 1.0e-3);
+    float nh = max(dot(n, halfway), 0.0);
+    float a = max(rough * rough, 2.0e-3);
+    float a2 = a * a;
+    float d = a2 / (3.14159265 * pow(nh * nh * (a2 - 1.0) + 1.0, 2.0));
+    float visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1.0e-6);
+    vec3 f0 = mix(vec3(0.04), albedo, metal);
+    vec3 fresnel = f0 + (vec3(1.0) - f0) * pow(1.0 - max(dot(to_eye, halfway), 0.0), 5.0);
+    vec3 diffuse = albedo * (1.0 - metal) / 3.14159265;
+    vec3 direct = (diffuse * (vec3(1.0) - fresnel) + fresnel * (d * visible)) * (nl * lit * light_strength);
+    // The sky is brighter than the ground; a metal mirrors what a matt surface gathers.
+    float sky = 0.5 + 0.5 * n.y;
+    vec3 around = mix(albedo * (1.0 - metal), fresnel * mix(1.0, 0.75, rough), mix(0.1, 1.0, metal));
+    return direct + around * ambient * mix(0.35, 1.0, sky);
+}
+
+void main() {
+    vec3 to_eye = dot(view, view) > 0.0 ? -view : normalize(eye - world_position);
+    vec3 n = normalize(world_normal);
+    if (dot(n, to_eye) < 0.0 && !gl_FrontFacing) n = -n;
+    vec3 albedo = base_color.rgb;
+    float metal = metallic;
+    float rough = roughness;
+    float lit = 1.0;
+    vec3 shading_normal = n;
+    mat3 frame = pattern_frame(n);
+    float handed = determinant(frame);
+    if (has_detail != 0 && abs(handed) > 1.0e-12 && dot(n, to_eye) > 1.0e-3) {
+        mat3 to_pattern = inverse(frame);
+        BurinRay ray;
+        ray.origin = pattern_uv * burin_map.size;
+        ray.slope = slope_of(to_pattern * -to_eye);
+        BurinHit hit = burin_trace(ray, 0.0, burin_map.depth);
+        BurinSurface surface = burin_surface(hit);
+        shading_normal = normalize(transpose(to_pattern) * surface.normal);
+        BurinMaterial material = burin_material(surface.material);
+        if (material.overrides) {
+            albedo = material.base_color.rgb;
+            metal = material.metallic;
+            rough = material.roughness;
+        }
+        vec3 toward = to_pattern * light;
+        if (shadows != 0 && dot(shading_normal, light) > 0.0 && toward.z > 0.0) {
+            BurinRay shadow;
+            shadow.slope = slope_of(-toward);
+            shadow.origin = hit.ray.origin + (hit.ray.slope - shadow.slope) * hit.t;
+            float before = hit.t - 4.0e-3 * burin_map.depth;
+            if (before > 0.0 && burin_trace(shadow, 0.0, before).met) lit = 0.0;
+        }
+        if (toward.z <= 0.0) lit = 0.0;
+    }
+    color = vec4(clamp(shade(shading_normal, to_eye, albedo, metal, rough, lit), 0.0, 1.0), 1.0);
+}

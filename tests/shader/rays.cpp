@@ -1,0 +1,213 @@
+#include "rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <burin/grid.hpp>
+#include <cpp/decode.hpp>
+
+#include "../property/random_pattern.hpp"
+
+namespace burin::testing {
+namespace {
+
+// Work on [0, count) by every core.
+template <typename Work>
+void in_parallel(std::size_t count, Work work) {
+    const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::thread> pool;
+    for (std::size_t k = 0; k < threads; ++k)
+        pool.emplace_back([=, &work] {
+            for (std::size_t i = k * count / threads; i < (k + 1) * count / threads; ++i) work(i);
+        });
+    for (std::thread& thread : pool) thread.join();
+}
+
+Vec2 on_element(const Element& e, double s) {
+    if (e.kind == ElementKind::line) return lerp(e.p0, e.p2, s);
+    return lerp(lerp(e.p0, e.p1, s), lerp(e.p1, e.p2, s), s);
+}
+
+double reach_of(const ResolvedPattern& pattern, std::size_t element) {
+    double reach = 0.0;
+    for (const ProfilePoint& point : pattern.profiles[pattern.styles[pattern.elements[element].style].profile].points)
+        reach = std::max(reach, std::abs(point.b));
+    return std::max(reach, 1e-3);
+}
+
+Vec2 aim(const PreparedPattern& p, RayKind kind, Random& random) {
+    const ResolvedPattern& pattern = p.resolved;
+    if (kind == RayKind::junction && !pattern.junctions.empty()) {
+        const Junction& junction = pattern.junctions[std::size_t(random.below(int(pattern.junctions.size())))];
+        return junction.position + random.direction() * (0.06 * random.uniform());
+    }
+    if (kind == RayKind::anywhere || pattern.elements.empty())
+        return {random.uniform() * pattern.size.x, random.uniform() * pattern.size.y};
+    const std::size_t k = std::size_t(random.below(int(pattern.elements.size())));
+    const Vec2 at = on_element(pattern.elements[k].element, random.between(-0.05, 1.05));
+    return at + random.direction() * (reach_of(pattern, k) * 1.2 * random.uniform());
+}
+
+struct TruthHit {
+    RayHit hit;
+    double drop;
+};
+
+TruthHit ask(const Truth& truth, const PreparedPattern& p, PatternRay ray, Vec2 shift) {
+    Ray r;
+    r.origin[0] = double(ray.origin[0]) + shift.x;
+    r.origin[1] = double(ray.origin[1]) + shift.y;
+    r.origin[2] = p.detail.base_offset;
+    r.direction[0] = double(ray.slope[0]);
+    r.direction[1] = double(ray.slope[1]);
+    r.direction[2] = -1.0;
+    const RayHit hit = truth.trace_ray(r);
+    return {hit, hit.t};
+}
+
+bool same_facet(const RayHit& a, const RayHit& b) { return a.element == b.element && a.facet == b.facet; }
+
+// The shader's facet in the truth's words.
+std::uint32_t facet_word(int facet) {
+    return facet >= 0 ? std::uint32_t(facet) : (facet == kDecodedGroundFacet ? kGround : kWall);
+}
+
+struct Verdict {
+    bool facet_differs = false, height_differs = false, border = false;
+    double height = 0.0;
+};
+
+Verdict compare(const Truth& truth, const PreparedPattern& p, const AimedRay& aimed, const ShadedHit& hit) {
+    const TruthHit right = ask(truth, p, aimed.ray, {});
+    Verdict v;
+    v.height = std::abs(double(hit.drop) - right.drop) / p.detail.depth;
+    const std::uint32_t facet = facet_word(hit.facet);
+    const std::uint32_t texel =
+        right.hit.element == kGround ? kDecodedGround : p.element_texels[right.hit.element];
+    // A wall belongs to whatever stops there; only its being a wall counts.
+    v.facet_differs = facet != right.hit.facet || (facet < kWall && texel != hit.element);
+    v.height_differs = v.height > 1e-3;
+    if (!v.facet_differs && !v.height_differs) return v;
+    const double step = 2e-5;
+    for (const Vec2 way : {Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}, Vec2{0.7, 0.7}, Vec2{-0.7, -0.7},
+                           Vec2{0.7, -0.7}, Vec2{-0.7, 0.7}}) {
+        const TruthHit near = ask(truth, p, aimed.ray, way * step);
+        if (!same_facet(near.hit, right.hit) || std::abs(near.drop - right.drop) > 0.05 * p.detail.depth)
+            v.border = true;
+    }
+    return v;
+}
+
+}  // namespace
+
+PreparedPattern prepare(const Pattern& pattern) {
+    PreparedPattern p;
+    auto resolved = resolve_pattern(pattern);
+    EXPECT_TRUE(resolved.ok()) << (resolved ? "" : resolved.error().message);
+    if (!resolved) return p;
+    p.resolved = *resolved;
+    auto grid = build_grid(p.resolved);
+    EXPECT_TRUE(grid.ok()) << (grid ? "" : grid.error().message);
+    if (!grid) return p;
+    auto textures = pack_textures(p.resolved, *grid);
+    EXPECT_TRUE(textures.ok()) << (textures ? "" : textures.error().message);
+    if (!textures) return p;
+    p.textures = *textures;
+    p.detail = describe_pattern(p.resolved, p.textures);
+    auto stored = unpack_textures(p.textures, p.detail);
+    EXPECT_TRUE(stored.ok()) << (stored ? "" : stored.error().message);
+    if (!stored) return p;
+    p.stored = stored->pattern;
+    for (std::uint32_t texel = 0; texel < p.textures.sections.element_texels;) {
+        p.element_texels.push_back(texel);
+        texel += element_has_texel_b(data_texel(p.textures, texel)) ? 2 : 1;
+    }
+    p.element_texels.resize(p.stored.elements.size());
+    return p;
+}
+
+std::vector<AimedRay> aim_rays(const PreparedPattern& p, int count, std::uint64_t seed) {
+    Random random(seed);
+    std::vector<AimedRay> rays;
+    for (int i = 0; i < count; ++i) {
+        const RayKind kind = i % 2 == 0 ? RayKind::feature : (i % 4 == 1 ? RayKind::junction : RayKind::anywhere);
+        const Vec2 at = aim(p, kind, random);
+        const double tangent = random.chance(0.1) ? 0.0 : 3.0 * random.uniform();
+        const Vec2 slope = random.direction() * tangent;
+        const Vec2 origin = at - slope * (random.uniform() * p.detail.depth);
+        rays.push_back({{{float(origin.x), float(origin.y)}, {float(slope.x), float(slope.y)}}, kind});
+    }
+    return rays;
+}
+
+double Agreement::facet_share(RayKind kind) const {
+    const int k = int(kind);
+    const int asked = rays[std::size_t(k)] - borders[std::size_t(k)];
+    return asked > 0 ? 1.0 - double(facet_differs[std::size_t(k)]) / asked : 1.0;
+}
+
+std::string Agreement::report(const std::string& name) const {
+    std::string text;
+    for (int k = 0; k < kRayKinds; ++k) {
+        char row[200];
+        const std::size_t i = std::size_t(k);
+        std::snprintf(row, sizeof row, "%-10s %-10s %7d rays  same facet %9.5f %%  height off %5d  at borders %5d\n",
+                      name.c_str(), kRayKindNames[k], rays[i], 100.0 * facet_share(RayKind(k)), height_differs[i],
+                      borders[i]);
+        text += row;
+    }
+    char row[100];
+    std::snprintf(row, sizeof row, "%-10s worst height %.2e of range, not met %d\n", name.c_str(), worst_height, not_met);
+    return text + row;
+}
+
+Agreement judge(const PreparedPattern& p, const std::vector<AimedRay>& rays, const std::vector<ShadedHit>& hits) {
+    TruthOptions options;
+    options.level_tolerance = 4e-5;
+    const Truth truth(p.stored, options);
+    std::vector<Verdict> verdicts(rays.size());
+    in_parallel(rays.size(), [&](std::size_t i) { verdicts[i] = compare(truth, p, rays[i], hits[i]); });
+    Agreement sum;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::size_t k = std::size_t(rays[i].kind);
+        const Verdict& v = verdicts[i];
+        ++sum.rays[k];
+        sum.borders[k] += v.border;
+        sum.facet_differs[k] += v.facet_differs && !v.border;
+        sum.height_differs[k] += v.height_differs && !v.border;
+        if (!v.facet_differs) sum.worst_height = std::max(sum.worst_height, v.border ? 0.0 : v.height);
+        if ((v.facet_differs || v.height_differs) && !v.border && sum.worst.size() < 2000) {
+            const PatternRay& r = rays[i].ray;
+            const TruthHit right = ask(truth, p, r, {});
+            char row[300];
+            std::snprintf(row, sizeof row,
+                          "  %s ray %zu origin %.6f %.6f slope %.4f %.4f: met drop %.7f element %d facet %d, truth drop "
+                          "%.7f element %d facet %d\n",
+                          kRayKindNames[k], i, double(r.origin[0]), double(r.origin[1]), double(r.slope[0]),
+                          double(r.slope[1]), double(hits[i].drop), int(hits[i].element), hits[i].facet, right.drop,
+                          right.hit.element == kGround ? -1 : int(p.element_texels[right.hit.element]),
+                          int(right.hit.facet));
+            sum.worst += row;
+        }
+    }
+    return sum;
+}
+
+std::vector<ShadedHit> decode_rays(const PreparedPattern& p, const std::vector<AimedRay>& rays) {
+    const Decoder decoder(p.textures, p.detail);
+    std::vector<ShadedHit> hits(rays.size());
+    in_parallel(rays.size(), [&](std::size_t i) {
+        const PatternRay& r = rays[i].ray;
+        const DecodedHit hit = decoder.trace({double(r.origin[0]), double(r.origin[1])},
+                                             {double(r.slope[0]), double(r.slope[1])});
+        hits[i] = {float(hit.drop), hit.element, hit.facet,
+                   {float(hit.normal[0]), float(hit.normal[1]), float(hit.normal[2])}};
+    });
+    return hits;
+}
+
+}  // namespace burin::testing
