@@ -52,29 +52,34 @@ double ignored_radius(const Chain& chain, long k, double corner_reach) {
     return corner_radius(direction_in(chain, k), direction_out(chain, k), corner_reach);
 }
 
-// Shrinks [begin, end) by the points near its corners; keeps the middle when nothing would remain.
-PointRange trimmed(const Points& points, PointRange range, Vec2 first, double first_radius, Vec2 last,
-                   double last_radius) {
-    PointRange r = range;
-    while (r.begin < r.end && length(points[r.begin] - first) < first_radius) ++r.begin;
-    while (r.begin < r.end && length(points[r.end - 1] - last) < last_radius) --r.end;
+}  // namespace
+
+PointRange ignored_range(const Chain& chain, const Points& points, long k, double corner_reach) {
+    const double radius = ignored_radius(chain, k, corner_reach);
+    PointRange r{chain.begin(k), chain.begin(k)};
+    if (radius == 0.0) return r;
+    const Vec2 tip = chain.position(k);
+    const long low = chain.line_or_quadratic_before(k), high = chain.line_or_quadratic_after(k);
+    while (r.begin > low && length(points[r.begin - 1] - tip) < radius) --r.begin;
+    while (r.end < high && length(points[r.end] - tip) < radius) ++r.end;
     return r;
 }
 
-}  // namespace
-
 PointRange quadratic_range(const Chain& chain, const Points& points, long k, double corner_reach) {
-    const PointRange all{chain.begin(k), chain.end(k)};
+    PointRange r{chain.begin(k), chain.end(k)};
     // A quadratic touches a corner only where the side between carries no line.
-    const double before = chain.at(k - 1).line ? 0.0 : ignored_radius(chain, k - 1, corner_reach);
-    const double after = chain.at(k).line ? 0.0 : ignored_radius(chain, k + 1, corner_reach);
-    return trimmed(points, all, chain.position(k - 1), before, chain.position(k + 1), after);
+    if (!chain.at(k - 1).line && chain.at(k - 1).corner)
+        r.begin = std::max(r.begin, ignored_range(chain, points, k - 1, corner_reach).end);
+    if (!chain.at(k).line && chain.at(k + 1).corner)
+        r.end = std::min(r.end, ignored_range(chain, points, k + 1, corner_reach).begin);
+    return r;
 }
 
 PointRange line_range(const Chain& chain, const Points& points, long k, double corner_reach) {
-    const PointRange all{chain.end(k), chain.begin(k + 1)};
-    return trimmed(points, all, chain.position(k), ignored_radius(chain, k, corner_reach), chain.position(k + 1),
-                   ignored_radius(chain, k + 1, corner_reach));
+    PointRange r{chain.end(k), chain.begin(k + 1)};
+    if (chain.at(k).corner) r.begin = std::max(r.begin, ignored_range(chain, points, k, corner_reach).end);
+    if (chain.at(k + 1).corner) r.end = std::min(r.end, ignored_range(chain, points, k + 1, corner_reach).begin);
+    return r;
 }
 
 double closest_parameter(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess) {
@@ -94,23 +99,25 @@ double closest_parameter(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess) {
     return std::clamp(t, 0.0, 1.0);
 }
 
+static PieceError error_of(const ErrorTally& tally) {
+    return {tally.finish(), tally.largest, tally.sum_of_squares, tally.counted};
+}
+
 PieceError quadratic_error(const Chain& chain, const Points& points, long k, double corner_reach) {
     const Vec2 p0 = chain.joint_in(k);
     const Vec2 p1 = chain.position(k);
     const Vec2 p2 = chain.joint_out(k);
     const PointRange range = quadratic_range(chain, points, k, corner_reach);
-    PieceError error;
+    ErrorTally tally;
     double t = 0.0;
     for (long i = range.begin; i < range.end; ++i) {
         if (points.weight(i) == 0.0) continue;
         t = closest_parameter(p0, p1, p2, points[i], t);
         const Vec2 foot = lerp(lerp(p0, p1, t), lerp(p1, p2, t), t);
         const double e = length(points[i] - foot);
-        if (e > error.largest) error.largest = e, error.where = i;
-        error.sum_of_squares += e * e;
-        ++error.counted;
+        tally.add(e);
     }
-    return error;
+    return error_of(tally);
 }
 
 PieceError line_error(const Chain& chain, const Points& points, long k, double corner_reach) {
@@ -119,18 +126,16 @@ PieceError line_error(const Chain& chain, const Points& points, long k, double c
     const Vec2 t = unit(b - a);
     const double extent = dot(b - a, t);
     const PointRange range = line_range(chain, points, k, corner_reach);
-    PieceError error;
+    ErrorTally tally;
     for (long i = range.begin; i < range.end; ++i) {
         if (points.weight(i) == 0.0) continue;
         const Vec2 p = points[i] - a;
         const double along = dot(p, t);
         const double beyond = std::max({0.0, -along, along - extent});
         const double e = std::hypot(cross(t, p), beyond);
-        if (e > error.largest) error.largest = e, error.where = i;
-        error.sum_of_squares += e * e;
-        ++error.counted;
+        tally.add(e);
     }
-    return error;
+    return error_of(tally);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 // smooth by construction, whatever the optimiser does to the vertices.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -66,6 +67,9 @@ struct Chain {
     long end(long k) const { return at(k).end + turn * turns(k); }
     Vec2 joint_out(long k) const { return lerp(position(k), position(k + 1), at(k).s0); }  // first joint on side k
     Vec2 joint_in(long k) const { return lerp(position(k - 1), position(k), at(k - 1).s1); }  // last on side k - 1
+    // Points of the piece that ends (begins) at corner k.
+    long line_or_quadratic_before(long k) const { return at(k - 1).line ? end(k - 1) : begin(k - 1); }
+    long line_or_quadratic_after(long k) const { return at(k).line ? begin(k + 1) : end(k + 1); }
     long elements() const;
 };
 
@@ -75,9 +79,34 @@ struct Window {
     long count = 0;
 };
 
-struct PieceError {
+// Errors of points in a row. A single point that strays, with neighbours that do not, is noise and not shape: it may
+// err half as much again as the tolerance. So what is held against the tolerance is the larger of e / 1.5 and
+// min(e, the larger of its neighbours' errors). In a row of fewer than 12 points every point counts as it is: there a
+// bow's middle and its ends look like single points.
+struct ErrorTally {
+    double judged = 0.0;
     double largest = 0.0;
-    long where = 0;  // point of the largest error
+    double sum_of_squares = 0.0;
+    long counted = 0;
+
+    void add(double e) {
+        // Here the neighbours of the point before are known.
+        judged = std::max(judged, std::max(std::min(last_, std::max(before_, e)), e * (1.0 / 1.5)));
+        before_ = last_;
+        last_ = e;
+        largest = std::max(largest, e);
+        sum_of_squares += e * e;
+        ++counted;
+    }
+    double finish() const { return counted < 12 ? largest : std::max(judged, std::min(last_, before_)); }
+
+  private:
+    double before_ = 0.0, last_ = 0.0;
+};
+
+struct PieceError {
+    double judged = 0.0;  // to be held against the tolerance
+    double largest = 0.0;
     double sum_of_squares = 0.0;
     long counted = 0;
 };
@@ -87,6 +116,8 @@ struct PointRange {
     long begin = 0;
     long end = 0;
 };
+
+PointRange ignored_range(const Chain& chain, const Points& points, long k, double corner_reach);
 PointRange quadratic_range(const Chain& chain, const Points& points, long k, double corner_reach);
 PointRange line_range(const Chain& chain, const Points& points, long k, double corner_reach);
 PieceError quadratic_error(const Chain& chain, const Points& points, long k, double corner_reach);
@@ -104,8 +135,18 @@ void assign_points(Chain& chain, const Points& points, Window window);
 // Dynamic programme: the cheapest chain over the candidate breakpoints (fit_segment.cpp).
 Chain segment_points(const Points& points, const FitOptions& options);
 
+// Whether one element alone, unconstrained, could follow the points from `first` to `last`: cheap, and a condition for
+// any chain that spans them with one.
+bool one_line_fits(const Points& points, const FitOptions& options, long first, long last);
+bool one_quadratic_fits(const Points& points, const FitOptions& options, long first, long last);
+
+// What refine_chain makes small: the mean square, best against noise, or something near the largest error, for a chain
+// that just misses the tolerance.
+enum class Aim { mean_square, largest };
+
 // Least squares over the polygon's vertices and joints (fit_refine.cpp). Returns the weighted sum of squares.
-double refine_chain(Chain& chain, const Points& points, const FitOptions& options, Window window, int iterations);
+double refine_chain(Chain& chain, const Points& points, const FitOptions& options, Window window, Aim aim,
+                    int iterations);
 
 // Splits pieces until all are within tolerance, then removes what can go (fit_simplify.cpp).
 void repair_chain(Chain& chain, const Points& points, const FitOptions& options);

@@ -91,7 +91,7 @@ struct Local {
 
 class Refiner {
   public:
-    Refiner(Chain& chain, const Points& points, const FitOptions& options, Window window);
+    Refiner(Chain& chain, const Points& points, const FitOptions& options, Window window, Aim aim);
     double run(int iterations);
 
   private:
@@ -111,6 +111,8 @@ class Refiner {
     double assemble(bool with_matrix);
     void step(const std::vector<double>& change);
     double weight(long i, double distance) const;
+    void mark_ignored();
+    PointRange looked_at(PointRange range, long before, long after) const;
     Columns& at(long k) { return columns_[static_cast<std::size_t>(chain_.wrap(k))]; }
     const Columns& at(long k) const { return columns_[static_cast<std::size_t>(chain_.wrap(k))]; }
 
@@ -118,20 +120,25 @@ class Refiner {
     const Points& points_;
     const FitOptions& options_;
     Window window_;
+    Aim aim_;
     bool whole_;
     int unknowns_ = 0;
     std::vector<Columns> columns_;
     Envelope matrix_{0};
+    // Points near each corner. They are chosen before the first step and kept: were they to follow the corner, a step
+    // could lower the sum by driving points out of it.
+    std::vector<PointRange> ignored_;
     std::vector<double> right_;
 };
 
-Refiner::Refiner(Chain& chain, const Points& points, const FitOptions& options, Window window)
-    : chain_(chain), points_(points), options_(options), window_(window), whole_(window.count >= chain.size()) {
+Refiner::Refiner(Chain& chain, const Points& points, const FitOptions& options, Window window, Aim aim)
+    : chain_(chain), points_(points), options_(options), window_(window), aim_(aim), whole_(window.count >= chain.size()) {
     columns_.resize(chain.vertices.size());
     number_unknowns();
     matrix_ = Envelope(static_cast<std::size_t>(unknowns_));
     shape_envelope();
     right_.resize(static_cast<std::size_t>(unknowns_));
+    mark_ignored();
 }
 
 // Side k's fractions that may move, and vertex k when it may.
@@ -196,10 +203,35 @@ void Refiner::shape_envelope() {
 }
 
 double Refiner::weight(long i, double distance) const {
-    // Points that err more than the tolerance pull harder, which moves the least squares optimum towards the least
-    // largest error; the square keeps one bad point from taking over.
-    const double over = std::abs(distance) / options_.tolerance;
-    return points_.weight(i) * (0.2 + std::min(over * over, 4.0));
+    // The fourth power makes the sum one of sixth powers, whose optimum is near that of the largest error; the bound
+    // keeps one bad point from taking over.
+    if (aim_ == Aim::mean_square) return points_.weight(i);
+    const double over = distance * distance / (options_.tolerance * options_.tolerance);
+    return points_.weight(i) * (0.02 + std::min(over * over, 8.0));
+}
+
+void Refiner::mark_ignored() {
+    ignored_.resize(chain_.vertices.size());
+    const long first = whole_ ? 0 : window_.first - 1;
+    const long last = whole_ ? chain_.size() - 1 : window_.first + window_.count;
+    for (long k = first; k <= last; ++k) {
+        if (!chain_.closed && (k <= 0 || k >= chain_.size() - 1)) continue;
+        if (!chain_.at(k).corner) continue;
+        const PointRange r = ignored_range(chain_, points_, k, options_.corner_reach);
+        const long lap = chain_.turn * chain_.turns(k);
+        ignored_[static_cast<std::size_t>(chain_.wrap(k))] = {r.begin - lap, r.end - lap};
+    }
+}
+
+// Points of [begin, end) but for those near a corner at vertex `before` or `after`.
+PointRange Refiner::looked_at(PointRange range, long before, long after) const {
+    if (chain_.at(before).corner)
+        range.begin = std::max(range.begin, ignored_[static_cast<std::size_t>(chain_.wrap(before))].end +
+                                                chain_.turn * chain_.turns(before));
+    if (chain_.at(after).corner && (chain_.closed || after < chain_.size() - 1))
+        range.end = std::min(range.end, ignored_[static_cast<std::size_t>(chain_.wrap(after))].begin +
+                                            chain_.turn * chain_.turns(after));
+    return range;
 }
 
 Local Refiner::quadratic(long k) {
@@ -213,7 +245,8 @@ Local Refiner::quadratic(long k) {
     const double s_out = chain_.at(k).s0;
     const Vec2 p0 = lerp(before, control, s_in);
     const Vec2 p2 = lerp(control, after, s_out);
-    const PointRange range = quadratic_range(chain_, points_, k, options_.corner_reach);
+    const PointRange range = looked_at({chain_.begin(k), chain_.end(k)}, chain_.at(k - 1).line ? k : k - 1,
+                                       chain_.at(k).line ? k : k + 1);
     double t = 0.0;
     for (long i = range.begin; i < range.end; ++i) {
         t = closest_parameter(p0, control, p2, points_[i], t);
@@ -237,7 +270,7 @@ Local Refiner::line(long k) {
     const Vec2 side = chain_.position(k + 1) - a;
     const Vec2 n = normal_of(unit(side));
     const double scale = 1.0 / std::max(dot(side, side), 1e-12);
-    const PointRange range = line_range(chain_, points_, k, options_.corner_reach);
+    const PointRange range = looked_at({chain_.end(k), chain_.begin(k + 1)}, k, k + 1);
     for (long i = range.begin; i < range.end; ++i) {
         const Vec2 p = points_[i] - a;
         const double along = dot(p, side) * scale;
@@ -346,8 +379,9 @@ double Refiner::run(int iterations) {
 
 }  // namespace
 
-double refine_chain(Chain& chain, const Points& points, const FitOptions& options, Window window, int iterations) {
-    return Refiner(chain, points, options, window).run(iterations);
+double refine_chain(Chain& chain, const Points& points, const FitOptions& options, Window window, Aim aim,
+                    int iterations) {
+    return Refiner(chain, points, options, window, aim).run(iterations);
 }
 
 }  // namespace burin::fit

@@ -16,15 +16,21 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// What the programme minimises, in elements. A quadratic takes two texels in the data texture and a slower search in
-// the shader, so a line is preferred where it does as well; a corner makes a special cell.
-constexpr double kLineCost = 1.0;
+// What the programme minimises, about in elements. A quadratic takes two texels in the data texture where a line takes
+// one, and a slower search in the shader; besides, a straight run should be a line even where a curve's slack would cover
+// it. A corner makes a special cell.
+constexpr double kLineCost = 0.65;
 constexpr double kQuadraticCost = 1.25;
 constexpr double kCornerCost = 0.2;
 constexpr double kErrorCost = 0.2;  // at an error of the tolerance
 
-constexpr long kMostSamples = 48;  // points that judge one piece: more would tell the same
-constexpr long kNear = 6;          // candidate ends tried next to the start, and next to the furthest end
+constexpr std::size_t kMostSamples = 24;  // points that judge one piece: more would tell the same
+constexpr long kFewestPoints = 4;    // spacings that a quadratic spans at least
+constexpr long kNear = 3;            // candidate ends tried next to the start, and next to the furthest end
+
+// A quadratic between the frames of two candidates, which fits its neighbours, or one that fits the points alone, which
+// is what stands beside a line or a corner.
+enum class Kind { line, between, alone };
 
 struct Piece {
     long a = 0, b = 0;  // candidate numbers
@@ -80,6 +86,33 @@ std::vector<long> candidates_of(const Points& points, double tolerance) {
     return out;
 }
 
+// Adds candidates in bends. On an arc of radius r a quadratic spans about (256 tolerance r^3)^(1/4), see fit_curve; with
+// six candidates to that length, ending at one of them instead of where it must costs a piece a twelfth of its length.
+std::vector<long> with_more_in_bends(const Points& points, const std::vector<long>& vertices, double tolerance) {
+    constexpr double kPerQuadratic = 6.0;
+    const auto turn = [&](std::size_t i) {
+        if (i == 0 || i + 1 >= vertices.size()) return 0.0;
+        const Vec2 here = points[vertices[i]];
+        const Vec2 in = unit(here - points[vertices[i - 1]]), out = unit(points[vertices[i + 1]] - here);
+        const double a = std::abs(std::atan2(cross(in, out), dot(in, out)));
+        return a < 1.2 ? a : 0.0;  // more is a corner
+    };
+    std::vector<long> out{vertices[0]};
+    double before = turn(0);
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+        const double after = turn(i);
+        const long span = vertices[i] - vertices[i - 1];
+        const double arc = points.arc(vertices[i]) - points.arc(vertices[i - 1]);
+        const double radius = arc / std::max({before, after, 1e-3});
+        const double spacing = std::sqrt(std::sqrt(256.0 * tolerance * radius * radius * radius)) / kPerQuadratic;
+        const long parts = std::min({1L + static_cast<long>(arc / spacing), 6L, span});
+        for (long k = 1; k < parts; ++k) out.push_back(vertices[i - 1] + span * k / parts);
+        out.push_back(vertices[i]);
+        before = after;
+    }
+    return out;
+}
+
 // --- pieces ----------------------------------------------------------------------------------------------------
 
 // Points of a piece that may lie on a rounded corner at either end are left out, at most a quarter at each end.
@@ -93,72 +126,42 @@ PointRange core_of(const Points& points, long first, long last, double reach) {
     return {r.begin, r.end + 1};
 }
 
-struct Judged {
-    double largest = 0.0;
-    double mean_square = 0.0;
+// The points that judge one piece, copied out once: every n-th of its core.
+struct Samples {
+    std::array<Vec2, kMostSamples> p;
+    std::array<double, kMostSamples> weight;
+    std::array<double, kMostSamples> t;  // curve parameter
+    std::size_t count = 0;
+    double total_weight = 0.0;
+
+    Samples(const Points& points, long first, long last, double reach) {
+        const PointRange core = core_of(points, first, last, reach);
+        const double low = points.arc(first), scale = 1.0 / (points.arc(last) - low);
+        const long n = core.end - core.begin;
+        const long wanted = std::min(n, static_cast<long>(kMostSamples));
+        for (long k = 0; k < wanted; ++k) {
+            const long i = core.begin + (wanted > 1 ? k * (n - 1) / (wanted - 1) : 0);
+            if (points.weight(i) == 0.0) continue;
+            p[count] = points[i];
+            weight[count] = points.weight(i);
+            t[count] = (points.arc(i) - low) * scale;
+            total_weight += weight[count];
+            ++count;
+        }
+    }
 };
 
-class PieceFitter {
-  public:
-    PieceFitter(const Points& points, const FitOptions& options) : points_(points), options_(options) {}
-
-    // Fits the points from `first` to `last`; false when an error exceeds the tolerance by more than `slack`.
-    bool line(long first, long last, Piece& piece) const;
-    bool quadratic(long first, long last, Piece& piece) const;
-
-  private:
-    Judged judge_line(PointRange core, long stride, Vec2 centre, Vec2 t) const;
-    bool fit_by_arc(PointRange core, long stride, Vec2 out[3], double low, double high) const;
-    Judged improve(PointRange core, long stride, Vec2 c[3], bool change) const;
-    double piece_cost(double base, Judged error) const {
-        return base + kErrorCost * error.mean_square / (options_.tolerance * options_.tolerance);
-    }
-    long stride_of(PointRange core) const { return std::max(1L, (core.end - core.begin) / kMostSamples); }
-
-    const Points& points_;
-    const FitOptions& options_;
-};
-
-Judged PieceFitter::judge_line(PointRange core, long stride, Vec2 centre, Vec2 t) const {
-    Judged error;
-    long n = 0;
-    for (long i = core.begin; i < core.end; i += stride) {
-        if (points_.weight(i) == 0.0) continue;
-        const double e = std::abs(cross(t, points_[i] - centre));
-        error.largest = std::max(error.largest, e);
-        error.mean_square += e * e;
-        ++n;
-    }
-    error.mean_square /= std::max(1.0, static_cast<double>(n));
-    return error;
-}
-
-bool PieceFitter::line(long first, long last, Piece& piece) const {
-    const PointRange core = core_of(points_, first, last, options_.corner_reach);
-    const long stride = stride_of(core);
-    // Total least squares: the axis of least inertia through the centroid.
-    double w = 0.0;
-    Vec2 centre;
-    for (long i = core.begin; i < core.end; i += stride) w += points_.weight(i), centre = centre + points_[i] * points_.weight(i);
-    if (w > 0.0) centre = centre * (1.0 / w);
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-    for (long i = core.begin; i < core.end; i += stride) {
-        const Vec2 d = points_[i] - centre;
-        const double v = points_.weight(i);
-        xx += v * d.x * d.x, xy += v * d.x * d.y, yy += v * d.y * d.y;
-    }
-    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-    Vec2 t{std::cos(angle), std::sin(angle)};
-    if (w == 0.0 || !(xx + yy > 0.0)) t = unit(points_[last] - points_[first]), centre = points_[first];
-    if (dot(t, points_[last] - points_[first]) < 0.0) t = -t;
-    const Judged error = judge_line(core, stride, centre, t);
-    piece.quadratic = false;
-    piece.start = centre + t * dot(t, points_[first] - centre);
-    piece.end = centre + t * dot(t, points_[last] - centre);
-    piece.control = (piece.start + piece.end) * 0.5;
-    piece.direction_in = piece.direction_out = t;
-    piece.cost = piece_cost(kLineCost, error);
-    return error.largest <= options_.tolerance;
+// What the points left out at a piece's ends tell: on a raster's corner they lie up to about a fifth of a texel off the
+// sides, on a bend much further. Gives a cost in elements.
+template <typename Distance>
+double cost_of_ends(const Points& points, const FitOptions& options, long first, long last, const Distance& distance) {
+    if (options.corner_reach == 0.0) return 0.0;
+    const PointRange core = core_of(points, first, last, options.corner_reach);
+    double most = 0.0;
+    for (long i = first; i < core.begin; ++i) most = std::max(most, distance(points[i]));
+    for (long i = core.end; i <= last; ++i) most = std::max(most, distance(points[i]));
+    const double over = std::max(0.0, most - options.tolerance) / (0.3 * options.corner_reach);
+    return 0.5 * over * over;
 }
 
 // Solves the symmetric system of N unknowns in place; false when it is singular.
@@ -187,77 +190,219 @@ bool solve_small(std::array<std::array<double, N>, N>& m, std::array<double, N>&
     return true;
 }
 
-// Control points c of the quadratic whose parameter is the length along the polyline.
-bool PieceFitter::fit_by_arc(PointRange core, long stride, Vec2 c[3], double low, double high) const {
-    std::array<std::array<double, 3>, 3> m{}, m2;
+struct Judged {
+    double largest = 0.0;  // see ErrorTally
+    double mean_square = 0.0;
+};
+
+using Controls = std::array<Vec2, 3>;
+
+// The quadratic whose parameter is the length along the polyline.
+bool fit_by_arc(const Samples& s, Controls& c) {
+    std::array<std::array<double, 3>, 3> m{};
     std::array<double, 3> x{}, y{};
-    for (long i = core.begin; i < core.end; i += stride) {
-        const double t = (points_.arc(i) - low) / (high - low);
+    for (std::size_t i = 0; i < s.count; ++i) {
+        const double t = s.t[i], w = s.weight[i];
         const std::array<double, 3> basis{(1 - t) * (1 - t), 2 * t * (1 - t), t * t};
-        const double w = points_.weight(i);
         for (std::size_t a = 0; a < 3; ++a) {
-            x[a] += w * basis[a] * points_[i].x;
-            y[a] += w * basis[a] * points_[i].y;
+            x[a] += w * basis[a] * s.p[i].x;
+            y[a] += w * basis[a] * s.p[i].y;
             for (std::size_t b = 0; b <= a; ++b) m[a][b] += w * basis[a] * basis[b];
         }
     }
     for (std::size_t a = 0; a < 3; ++a) m[a][a] += 1e-10;
-    m2 = m;
-    if (!solve_small(m, x) || !solve_small(m2, y)) return false;
+    std::array<std::array<double, 3>, 3> again = m;
+    if (!solve_small(m, x) || !solve_small(again, y)) return false;
     for (std::size_t a = 0; a < 3; ++a) c[a] = {x[a], y[a]};
     return true;
 }
 
-// One Gauss-Newton step on the distances to the curve, and the errors before it.
-Judged PieceFitter::improve(PointRange core, long stride, Vec2 c[3], bool change) const {
+// Moves the samples' parameters to their feet (one Newton step), and takes one Gauss-Newton step on the distances
+// where `change` is set. Gives the distances before it.
+Judged improve(Samples& s, Controls& c, bool change) {
     std::array<std::array<double, 6>, 6> m{};
     std::array<double, 6> x{};
-    Judged error;
-    double t = 0.0, n = 0.0;
-    for (long i = core.begin; i < core.end; i += stride) {
-        if (points_.weight(i) == 0.0) continue;
-        t = closest_parameter(c[0], c[1], c[2], points_[i], t);
-        const double w0 = (1 - t) * (1 - t), w1 = 2 * t * (1 - t), w2 = t * t;
-        const Vec2 normal = normal_of(unit(lerp(c[1] - c[0], c[2] - c[1], t)));
-        const double e = dot(normal, points_[i] - c[0] * w0 - c[1] * w1 - c[2] * w2);
-        error.largest = std::max(error.largest, std::abs(e));
-        error.mean_square += e * e;
-        n += 1.0;
+    ErrorTally tally;
+    const Vec2 d = c[1] - c[0], a2 = c[2] - c[1] - d;
+    for (std::size_t i = 0; i < s.count; ++i) {
+        double t = s.t[i];
+        const Vec2 offset = c[0] + d * (2.0 * t) + a2 * (t * t) - s.p[i];
+        const Vec2 slope = (d + a2 * t) * 2.0;
+        const double g = std::max(dot(slope, slope) + 2.0 * dot(offset, a2), 0.25 * dot(slope, slope));
+        if (g > 0.0) t = std::clamp(t - dot(offset, slope) / g, -0.1, 1.1);
+        s.t[i] = t;
+        const Vec2 along = d + a2 * t;
+        const Vec2 normal = normal_of(along) * (1.0 / std::sqrt(std::max(dot(along, along), 1e-24)));
+        const double e = dot(normal, s.p[i] - (c[0] + d * (2.0 * t) + a2 * (t * t)));
+        tally.add(std::abs(e));
         if (!change) continue;
-        const std::array<double, 6> slope{w0 * normal.x, w0 * normal.y, w1 * normal.x,
-                                          w1 * normal.y, w2 * normal.x, w2 * normal.y};
+        const double w0 = (1 - t) * (1 - t), w1 = 2 * t * (1 - t), w2 = t * t;
+        const std::array<double, 6> slopes{w0 * normal.x, w0 * normal.y, w1 * normal.x,
+                                           w1 * normal.y, w2 * normal.x, w2 * normal.y};
         for (std::size_t a = 0; a < 6; ++a) {
-            x[a] += slope[a] * e;
-            for (std::size_t b = 0; b <= a; ++b) m[a][b] += slope[a] * slope[b];
+            const double v = slopes[a] * s.weight[i];
+            x[a] += v * e;
+            for (std::size_t b = 0; b <= a; ++b) m[a][b] += v * slopes[b];
         }
     }
-    error.mean_square /= std::max(1.0, n);
-    if (!change) return error;
+    const Judged judged{tally.finish(), tally.sum_of_squares / std::max<double>(1.0, static_cast<double>(s.count))};
+    if (!change) return judged;
     // Sliding along the curve changes no distance: a little damping decides it.
-    for (std::size_t a = 0; a < 6; ++a) m[a][a] += 1e-3 * n / 6.0;
+    for (std::size_t a = 0; a < 6; ++a) m[a][a] += 1e-3 * s.total_weight / 6.0;
     if (solve_small(m, x))
         for (std::size_t a = 0; a < 3; ++a) c[a] = c[a] + Vec2{x[2 * a], x[2 * a + 1]};
-    return error;
+    return judged;
 }
 
-bool PieceFitter::quadratic(long first, long last, Piece& piece) const {
-    const PointRange core = core_of(points_, first, last, options_.corner_reach);
-    if (core.end - core.begin < 4) return false;
-    const long stride = stride_of(core);
-    Vec2 c[3];
-    if (!fit_by_arc(core, stride, c, points_.arc(first), points_.arc(last))) return false;
-    Judged error = improve(core, stride, c, true);
-    if (error.largest > 6.0 * options_.tolerance) return false;
-    error = improve(core, stride, c, true);
-    error = improve(core, stride, c, false);
-    // A control polygon that turns by more than a right angle and a half has left the arc that the points show.
-    const Vec2 in = unit(c[1] - c[0]), out = unit(c[2] - c[1]);
-    if (error.largest > options_.tolerance || dot(in, out) < -0.5) return false;
+double piece_cost(double base, Judged error, double tolerance) {
+    return base + kErrorCost * error.mean_square / (tolerance * tolerance);
+}
+
+// Least squares line through the points from `first` to `last`; false when it misses the tolerance.
+bool fit_line(const Points& points, const FitOptions& options, long first, long last, Piece& piece) {
+    const Samples s(points, first, last, options.corner_reach);
+    // Total least squares: the axis of least inertia through the centroid.
+    Vec2 centre;
+    for (std::size_t i = 0; i < s.count; ++i) centre = centre + s.p[i] * s.weight[i];
+    centre = s.count > 0 ? centre * (1.0 / s.total_weight) : points[first];
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (std::size_t i = 0; i < s.count; ++i) {
+        const Vec2 d = s.p[i] - centre;
+        xx += s.weight[i] * d.x * d.x, xy += s.weight[i] * d.x * d.y, yy += s.weight[i] * d.y * d.y;
+    }
+    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    Vec2 t{std::cos(angle), std::sin(angle)};
+    if (!(xx + yy > 0.0)) t = unit(points[last] - points[first]);
+    if (dot(t, points[last] - points[first]) < 0.0) t = -t;
+    ErrorTally tally;
+    for (std::size_t i = 0; i < s.count; ++i) tally.add(std::abs(cross(t, s.p[i] - centre)));
+    piece.quadratic = false;
+    piece.start = centre + t * dot(t, points[first] - centre);
+    piece.end = centre + t * dot(t, points[last] - centre);
+    piece.control = (piece.start + piece.end) * 0.5;
+    piece.direction_in = piece.direction_out = t;
+    const double mean_square = tally.sum_of_squares / std::max<double>(1.0, static_cast<double>(s.count));
+    piece.cost = piece_cost(kLineCost, {0.0, mean_square}, options.tolerance) +
+                 cost_of_ends(points, options, first, last, [&](Vec2 p) { return std::abs(cross(t, p - centre)); });
+    return tally.finish() <= options.tolerance;
+}
+
+// Least squares quadratic, likewise; `reach` is the length left out at either end.
+bool fit_quadratic(const Points& points, const FitOptions& options, double reach, long first, long last, Piece& piece) {
     piece.quadratic = true;
+    Samples s(points, first, last, reach);
+    Controls c;
+    if (s.count < 4 || !fit_by_arc(s, c)) return false;
+    Judged error = improve(s, c, true);
+    if (error.largest > 6.0 * options.tolerance) return false;
+    if (error.largest > 0.5 * options.tolerance) {
+        improve(s, c, true);
+        error = improve(s, c, false);
+    }
+    // A control polygon that turns by more than 120 degrees has left the arc that the points show.
+    const Vec2 in = unit(c[1] - c[0]), out = unit(c[2] - c[1]);
+    if (error.largest > options.tolerance || dot(in, out) < -0.5) return false;
     piece.start = c[0], piece.control = c[1], piece.end = c[2];
     piece.direction_in = in, piece.direction_out = out;
-    piece.cost = piece_cost(kQuadraticCost, error);
+    piece.cost = piece_cost(kQuadraticCost, error, options.tolerance);
     return true;
+}
+
+// Position and tangent of the curve at a candidate, from the points on both sides.
+struct Frame {
+    bool known = false;
+    Vec2 p;
+    Vec2 t;
+};
+
+// The widest window in which one parabola follows the points gives the steadiest tangent.
+Frame frame_at(const Points& points, const FitOptions& options, long i) {
+    Frame frame;
+    for (const long half : {2L, 3L, 5L, 8L, 12L}) {
+        const long first = points.closed ? i - half : std::max(0L, i - half);
+        const long last = points.closed ? i + half : std::min(points.count - 1, i + half);
+        if (points.closed && 2 * half >= points.count) break;
+        Samples s(points, first, last, 0.0);
+        Controls c;
+        if (s.count < 5 || !fit_by_arc(s, c)) continue;
+        if (improve(s, c, false).largest > (half == 2 ? 1.0 : 0.6) * options.tolerance) break;
+        const double t = (points.arc(i) - points.arc(first)) / (points.arc(last) - points.arc(first));
+        frame.known = true;
+        frame.p = lerp(lerp(c[0], c[1], t), lerp(c[1], c[2], t), t);
+        frame.t = unit(lerp(c[1] - c[0], c[2] - c[1], t));
+    }
+    return frame;
+}
+
+// Shifts both ends of a quadratic along their normals, each by its own amount, as the mean of the errors asks. Gives the
+// errors after that.
+Judged shift_ends(Samples& s, Controls& c, Vec2 n0, Vec2 n1) {
+    std::array<double, kMostSamples> error;
+    std::array<std::array<double, 2>, 2> m{};
+    std::array<double, 2> x{};
+    const Vec2 d = c[1] - c[0], a2 = c[2] - c[1] - d;
+    for (std::size_t i = 0; i < s.count; ++i) {
+        s.t[i] = closest_parameter(c[0], c[1], c[2], s.p[i], s.t[i]);
+        const double t = s.t[i], w = s.weight[i];
+        error[i] = dot(normal_of(unit(d + a2 * t)), s.p[i] - (c[0] + d * (2.0 * t) + a2 * (t * t)));
+        const double u = 1.0 - t;
+        m[0][0] += w * u * u, m[1][0] += w * u * t, m[1][1] += w * t * t;
+        x[0] += w * u * error[i], x[1] += w * t * error[i];
+    }
+    m[0][0] += 1e-9, m[1][1] += 1e-9;
+    if (!solve_small(m, x)) x = {0.0, 0.0};
+    ErrorTally tally;
+    for (std::size_t i = 0; i < s.count; ++i) tally.add(std::abs(error[i] - x[0] * (1.0 - s.t[i]) - x[1] * s.t[i]));
+    c[0] = c[0] + n0 * x[0];
+    c[2] = c[2] + n1 * x[1];
+    c[1] = c[1] + (n0 * x[0] + n1 * x[1]) * 0.5;
+    return {tally.finish(), tally.sum_of_squares / std::max<double>(1.0, static_cast<double>(s.count))};
+}
+
+// The quadratic between two frames: it leaves no kink at a joint with the next such piece.
+bool fit_between(const Points& points, const FitOptions& options, const Frame& a, const Frame& b, long first, long last,
+                 Piece& piece) {
+    piece.quadratic = true;
+    if (!a.known || !b.known || last - first < kFewestPoints) return false;
+    const double sine = cross(a.t, b.t);
+    const Vec2 chord = b.p - a.p;
+    if (std::abs(sine) < 1e-4 || dot(a.t, b.t) < -0.3) return false;
+    const double arm0 = cross(chord, b.t) / sine, arm1 = cross(a.t, chord) / sine;
+    const double whole = arm0 + arm1;
+    if (arm0 < 0.1 * whole || arm1 < 0.1 * whole || !(whole > 0.0)) return false;
+    Controls c{a.p, a.p + a.t * arm0, b.p};
+    Samples s(points, first, last, 0.0);
+    const Judged error = shift_ends(s, c, normal_of(a.t), normal_of(b.t));
+    if (error.largest > options.tolerance) return false;
+    piece.quadratic = true;
+    piece.start = c[0], piece.control = c[1], piece.end = c[2];
+    piece.direction_in = a.t, piece.direction_out = b.t;
+    piece.cost = piece_cost(kQuadraticCost, error, options.tolerance);
+    return true;
+}
+
+// Whether an arc of a circle follows the points from `first` to `last` (least squares on x^2 + y^2 + a x + b y + c).
+bool arc_fits(const Points& points, const FitOptions& options, long first, long last) {
+    const Samples s(points, first, last, 0.0);
+    if (s.count < 4) return true;
+    Vec2 centre;
+    for (std::size_t i = 0; i < s.count; ++i) centre = centre + s.p[i] * (1.0 / static_cast<double>(s.count));
+    std::array<std::array<double, 3>, 3> m{};
+    std::array<double, 3> x{};
+    for (std::size_t i = 0; i < s.count; ++i) {
+        const Vec2 p = s.p[i] - centre;
+        const std::array<double, 3> row{p.x, p.y, 1.0};
+        for (std::size_t a = 0; a < 3; ++a) {
+            x[a] += row[a] * dot(p, p);
+            for (std::size_t b = 0; b <= a; ++b) m[a][b] += row[a] * row[b];
+        }
+    }
+    if (!solve_small(m, x)) return false;
+    const Vec2 c = centre + Vec2{x[0], x[1]} * 0.5;
+    const double radius = std::sqrt(std::max(0.0, x[2] + 0.25 * (x[0] * x[0] + x[1] * x[1])));
+    ErrorTally tally;
+    for (std::size_t i = 0; i < s.count; ++i) tally.add(std::abs(length(s.p[i] - c) - radius));
+    return tally.finish() <= options.tolerance;
 }
 
 // --- the programme ---------------------------------------------------------------------------------------------
@@ -265,100 +410,152 @@ bool PieceFitter::quadratic(long first, long last, Piece& piece) const {
 class Segmenter {
   public:
     Segmenter(const Points& points, const FitOptions& options)
-        : points_(points), options_(options), fitter_(points, options) {}
+        : points_(points), options_(options) {}
 
     std::vector<Piece> run();
 
   private:
+    // A piece tried from one candidate.
+    struct Trial {
+        bool good;
+        Piece piece;
+    };
+
     void add_pieces(long a);
-    bool add(long a, long b, bool quadratic);
-    long furthest(long a, long guess, bool quadratic) const;
-    bool fits(long a, long b, bool quadratic, Piece& piece) const {
-        const long i = candidates_[static_cast<std::size_t>(a)], j = candidates_[static_cast<std::size_t>(b)];
-        return quadratic ? fitter_.quadratic(i, j, piece) : fitter_.line(i, j, piece);
-    }
-    double joint_cost(const Piece& before, const Piece& after, bool& corner) const;
+    void add(const Trial& trial, long a);
+    long furthest(long a, long guess, Kind kind);
+    const Trial& trial(long a, long b, Kind kind);
+    double joint_cost(const Piece& before, const Piece& after, bool& corner);
+    bool smooth_about(long candidate, double turn);
     void relax(Piece& after);
 
     const Points& points_;
     const FitOptions& options_;
-    PieceFitter fitter_;
     std::vector<long> candidates_;
+    std::vector<Frame> frames_;  // by candidate
     std::vector<Piece> pieces_;
+    std::vector<Trial> trials_;  // from the current candidate, of one kind
     std::vector<std::vector<long>> ending_;  // pieces by their last candidate
-    long reach_line_ = 0, reach_quadratic_ = 0;
+    std::vector<std::array<signed char, 4>> smooth_;  // smooth_about, remembered: -1 not yet known
+    double unit_ = 1.0;  // the points' scale: what a raster blurs
+    std::array<long, 3> reach_{};  // furthest end from the last start, by kind
 };
+
+// Fits one piece, or gives it from memory.
+const Segmenter::Trial& Segmenter::trial(long a, long b, Kind kind) {
+    for (const Trial& t : trials_)
+        if (t.piece.b == b) return t;
+    Trial t;
+    const long i = candidates_[static_cast<std::size_t>(a)], j = candidates_[static_cast<std::size_t>(b)];
+    switch (kind) {
+        case Kind::line: t.good = fit_line(points_, options_, i, j, t.piece); break;
+        case Kind::between:
+            t.good = fit_between(points_, options_, frames_[static_cast<std::size_t>(a)],
+                                 frames_[static_cast<std::size_t>(b)], i, j, t.piece);
+            break;
+        case Kind::alone: t.good = fit_quadratic(points_, options_, options_.corner_reach, i, j, t.piece); break;
+    }
+    t.piece.a = a;
+    t.piece.b = b;
+    trials_.push_back(t);
+    return trials_.back();
+}
 
 // Furthest candidate that one element starting at a spans. A piece that fails may be followed by one that does not, so
 // the search looks two candidates past a failure.
-long Segmenter::furthest(long a, long guess, bool quadratic) const {
+long Segmenter::furthest(long a, long guess, Kind kind) {
     const long last = static_cast<long>(candidates_.size()) - 1;
     long best = a;
-    Piece piece;
-    long b = std::clamp(guess, a + 1, last);
-    while (b > a + 1 && !fits(a, b, quadratic, piece)) --b;
+    // Too few points for any quadratic say nothing about longer spans.
+    long least = a + 1;
+    while (kind != Kind::line && least < last &&
+           candidates_[static_cast<std::size_t>(least)] - candidates_[static_cast<std::size_t>(a)] < kFewestPoints)
+        ++least;
+    long b = std::clamp(guess, least, last);
+    while (b > least && !trial(a, b, kind).good) --b;
     for (int failures = 0; b <= last && failures < 3; ++b) {
-        if (fits(a, b, quadratic, piece)) {
-            best = b;
-            failures = 0;
-        } else {
-            ++failures;
-        }
+        const bool good = trial(a, b, kind).good;
+        if (good) best = b;
+        failures = good ? 0 : failures + 1;
     }
     return best;
 }
 
-bool Segmenter::add(long a, long b, bool quadratic) {
-    Piece piece;
-    const bool good = fits(a, b, quadratic, piece);
+void Segmenter::add(const Trial& trial, long a) {
     // A span of the polyline itself is always allowed as a line: the programme then always finds a way through.
-    if (!good && (quadratic || b != a + 1)) return false;
-    if (!good) piece.cost += 2.0;
-    piece.a = a;
-    piece.b = b;
+    if (!trial.good && (trial.piece.quadratic || trial.piece.b != a + 1)) return;
+    Piece piece = trial.piece;
+    if (!trial.good) piece.cost += 2.0;
     piece.length = length(piece.end - piece.start);
+    relax(piece);
+    ending_[static_cast<std::size_t>(piece.b)].push_back(static_cast<long>(pieces_.size()));
     pieces_.push_back(piece);
-    return true;
 }
 
 void Segmenter::add_pieces(long a) {
-    const std::size_t first = pieces_.size();
-    for (const bool quadratic : {false, true}) {
-        long& guess = quadratic ? reach_quadratic_ : reach_line_;
-        const long reach = furthest(a, guess, quadratic);
-        guess = std::max(reach, a + 1);
-        const long last = std::max(reach, a + 1);
+    for (const Kind kind : {Kind::line, Kind::between, Kind::alone}) {
+        trials_.clear();
+        long& guess = reach_[static_cast<std::size_t>(kind)];
+        const long last = std::max(furthest(a, guess, kind), a + 1);
+        guess = last;
+        const long near = a + (kind == Kind::line ? kNear : 2 * kNear);
         for (long b = a + 1; b <= last; ++b) {
-            if (b > a + kNear && b < last - kNear) b = last - kNear;
-            add(a, b, quadratic);
+            if (b > near && b < last - kNear) b = last - kNear;
+            add(trial(a, b, kind), a);
         }
     }
-    for (std::size_t i = first; i < pieces_.size(); ++i) {
-        relax(pieces_[i]);
-        ending_[static_cast<std::size_t>(pieces_[i].b)].push_back(static_cast<long>(i));
-    }
+}
+
+// Whether one smooth curve, an arc or a parabola, explains the points about a candidate as well as a corner of this turn
+// does. A corner is seen only from far enough away: over w texels on either side the best arc misses a turn a by about
+// w a / 8. That has to exceed the tolerance, and what a raster rounds off the tip, a fifth of a texel for a right angle.
+bool Segmenter::smooth_about(long candidate, double turn) {
+    constexpr std::array<double, 4> turns{0.45, 0.75, 1.1, 1.6};  // radians
+    std::size_t level = 3;
+    while (level > 0 && turn < turns[level]) --level;
+    signed char& known = smooth_[static_cast<std::size_t>(candidate)][level];
+    if (known >= 0) return known > 0;
+    const double a = turns[level];
+    const double reach = 8.0 / a * (1.2 * options_.tolerance + unit_ * (0.1 + 0.15 * a));
+    const long middle = candidates_[static_cast<std::size_t>(candidate)];
+    const long low = points_.closed ? middle - points_.count / 2 : 0;
+    const long high = points_.closed ? middle + points_.count / 2 : points_.count - 1;
+    long first = middle, last = middle;
+    while (first > low && points_.arc(middle) - points_.arc(first) < reach) --first;
+    while (last < high && points_.arc(last) - points_.arc(middle) < reach) ++last;
+    FitOptions strict = options_;
+    strict.tolerance *= 0.8;
+    Piece piece;
+    known = arc_fits(points_, strict, first, last) || fit_quadratic(points_, strict, 0.0, first, last, piece) ? 1 : 0;
+    return known > 0;
 }
 
 // What it costs to join two pieces, and whether as a corner. A smooth joint must close the gap between the two ends
 // and turn both tangents into one, which the shorter piece has to give in to.
-double Segmenter::joint_cost(const Piece& before, const Piece& after, bool& corner) const {
+double Segmenter::joint_cost(const Piece& before, const Piece& after, bool& corner) {
     const Vec2 in = before.direction_out, out = after.direction_in;
     const double turn = std::abs(std::atan2(cross(in, out), dot(in, out)));
     const Vec2 n = normal_of(unit(in + out));
-    const double gap = std::abs(dot(n, after.start - before.end)) / options_.tolerance;
-    const double bend = 0.15 * turn * std::min(before.length, after.length) / options_.tolerance;
-    double smooth = 0.15 * (gap * gap + bend * bend);
-    if (!before.quadratic && !after.quadratic) smooth += kQuadraticCost;
-    if (turn > 1.2 || smooth > 4.0) smooth = kNever;
+    // A quadratic of length l turned by a at one end moves by about 0.15 l a; a line cannot bend, two quadratics share.
+    const double l1 = before.length, l2 = after.length;
+    const double bent = before.quadratic && after.quadratic ? l1 * l2 / std::max(l1 + l2, 1e-9)
+                        : before.quadratic                  ? l1
+                                                            : l2;
+    const double gap = 0.5 * std::abs(dot(n, after.start - before.end));
+    const double moved = (gap + 0.15 * turn * bent) / options_.tolerance;
+    const double over = std::max(0.0, moved - 0.6);
+    double smooth = 0.25 * moved * moved + 4.0 * over * over;
+    if (!before.quadratic && !after.quadratic) smooth = kQuadraticCost + (gap / options_.tolerance);
+    if (turn > 1.2) smooth = kNever;
     corner = false;
-    if (turn < options_.corner_angle) return smooth == kNever ? 6.0 : smooth;
+    if (turn < options_.corner_angle) return std::min(smooth, 6.0);
     // The corner is where the tangents meet; that must be near the samples that show it.
     const double sine = cross(in, out);
     const Vec2 at = before.end + in * (cross(after.start - before.end, out) / (std::abs(sine) > 1e-6 ? sine : 1e-6));
     const double off = length(at - points_[candidates_[static_cast<std::size_t>(after.a)]]);
     const double allowed = corner_radius(in, out, options_.corner_reach) + 1.5 * options_.tolerance;
-    const double over = std::max(0.0, off / std::max(allowed, 1e-9) - 1.0);
-    const double sharp = kCornerCost + over * over;
+    const double far = std::max(0.0, off / std::max(allowed, 1e-9) - 1.0);
+    const double sharp = kCornerCost + far * far + (smooth_about(after.a, turn) ? 2.0 * kQuadraticCost : 0.0);
     corner = sharp < smooth;
     return std::min({sharp, smooth, 6.0});
 }
@@ -370,6 +567,7 @@ void Segmenter::relax(Piece& after) {
     }
     for (const long i : ending_[static_cast<std::size_t>(after.a)]) {
         const Piece& before = pieces_[static_cast<std::size_t>(i)];
+        if (before.best + after.cost >= after.best) continue;
         bool corner = false;
         const double total = before.best + joint_cost(before, after, corner) + after.cost;
         if (total < after.best) after.best = total, after.previous = i, after.corner = corner;
@@ -377,9 +575,13 @@ void Segmenter::relax(Piece& after) {
 }
 
 std::vector<Piece> Segmenter::run() {
-    candidates_ = candidates_of(points_, 0.6 * options_.tolerance);
+    candidates_ = with_more_in_bends(points_, candidates_of(points_, 0.6 * options_.tolerance), options_.tolerance);
     const long last = static_cast<long>(candidates_.size()) - 1;
     ending_.resize(candidates_.size());
+    smooth_.assign(candidates_.size(), {-1, -1, -1, -1});
+    const double spacing = points_.arc(points_.end()) - points_.arc(0);
+    unit_ = std::max(options_.corner_reach, spacing / static_cast<double>(std::max(1L, points_.end())));
+    for (const long i : candidates_) frames_.push_back(frame_at(points_, options_, i));
     for (long a = 0; a < last; ++a) add_pieces(a);
     long best = -1;
     for (const long i : ending_[static_cast<std::size_t>(last)])
@@ -498,6 +700,9 @@ Chain ChainBuilder::run() {
         if (pieces_[i].quadratic) push_quadratic(i);
     }
     if (!points_.closed) push(pieces_.back().end, true, points_.count, points_.count, false);
+    // One line around a tile meets itself without a kink: a vertex to begin at is all it needs.
+    const bool single_line = pieces_.size() == 1 && !pieces_[0].quadratic && points_.closed;
+    if (single_line) chain_.vertices.clear();
     if (chain_.vertices.empty()) push(pieces_[0].start, true, pieces_[0].a, pieces_[0].a, true);
     if (!points_.closed && options_.pin_start) chain_.vertices.front().v = points_[0];
     if (!points_.closed && options_.pin_end) chain_.vertices.back().v = points_[points_.count - 1];
@@ -506,6 +711,16 @@ Chain ChainBuilder::run() {
 }
 
 }  // namespace
+
+bool one_line_fits(const Points& points, const FitOptions& options, long first, long last) {
+    Piece piece;
+    return last > first && fit_line(points, options, first, last, piece);
+}
+
+bool one_quadratic_fits(const Points& points, const FitOptions& options, long first, long last) {
+    Piece piece;
+    return last > first && fit_quadratic(points, options, options.corner_reach, first, last, piece);
+}
 
 Chain segment_points(const Points& points, const FitOptions& options) {
     return ChainBuilder(points, options, Segmenter(points, options).run()).run();

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kRefineAll = 12;   // iterations over a whole chain
 constexpr int kRefineNear = 8;   // over the few vertices about a change
+constexpr double kShortLine = 40.0;  // in tolerances: a line that a curve may swallow
 constexpr long kFewest = 5;      // points below which a quadratic is not split: it could only follow noise
 
 // Fraction of side k at which a joint lies, for a joint whose side has changed.
@@ -85,34 +86,45 @@ double window_error(const Chain& chain, const Points& points, const FitOptions& 
     double largest = 0.0;
     for (long k = first; k <= last; ++k) {
         if (!chain.at(k).corner)
-            largest = std::max(largest, quadratic_error(chain, points, k, options.corner_reach).largest);
+            largest = std::max(largest, quadratic_error(chain, points, k, options.corner_reach).judged);
         if ((chain.closed || k < chain.sides()) && chain.at(k).line)
-            largest = std::max(largest, line_error(chain, points, k, options.corner_reach).largest);
+            largest = std::max(largest, line_error(chain, points, k, options.corner_reach).judged);
     }
     return largest;
 }
 
 // --- moves that remove an element; each gives the changed chain, or nothing where it does not apply --------------
 
-using Move = std::optional<Chain> (*)(const Chain&, long k);
+struct Input {
+    const Points& points;
+    const FitOptions& options;
+};
+
+using Move = std::optional<Chain> (*)(const Chain&, const Input&, long k);
 
 // The line on side k goes; the curves beside it meet.
-std::optional<Chain> drop_line(const Chain& chain, long k) {
+std::optional<Chain> drop_line(const Chain& chain, const Input& input, long k) {
     const bool start_corner = chain.at(k).corner, end_corner = chain.at(k + 1).corner;
     if (!chain.at(k).line || (start_corner && end_corner)) return {};
+    // Long lines stay: bending a straight run within the tolerance would save an element and show.
+    if (length(chain.joint_in(k + 1) - chain.joint_out(k)) > kShortLine * input.options.tolerance) return {};
+    const long middle = start_corner ? chain.end(k) : end_corner ? chain.begin(k + 1)
+                                                                 : (chain.end(k) + chain.begin(k + 1)) / 2;
+    if (!start_corner && !one_quadratic_fits(input.points, input.options, chain.begin(k), middle - 1)) return {};
+    if (!end_corner && !one_quadratic_fits(input.points, input.options, middle, chain.end(k + 1) - 1)) return {};
     Chain next = chain;
     Vertex& vertex = next.at(k);
     vertex.line = false;
     vertex.s0 = vertex.s1 = start_corner ? 0.0 : end_corner ? 1.0 : 0.5 * (vertex.s0 + vertex.s1);
-    const long border = start_corner ? chain.end(k) : end_corner ? chain.begin(k + 1)
-                                                                 : (chain.end(k) + chain.begin(k + 1)) / 2;
-    vertex.end = border - chain.turn * chain.turns(k);
-    next.at(k + 1).begin = border - chain.turn * chain.turns(k + 1);
+    vertex.end = middle - chain.turn * chain.turns(k);
+    next.at(k + 1).begin = middle - chain.turn * chain.turns(k + 1);
+    if (start_corner) vertex.begin = vertex.end;
+    if (end_corner) next.at(k + 1).end = next.at(k + 1).begin;
     return next;
 }
 
 // The two quadratics that meet on side k become one.
-std::optional<Chain> join_quadratics(const Chain& chain, long k) {
+std::optional<Chain> join_quadratics(const Chain& chain, const Input& input, long k) {
     if (chain.at(k).corner || chain.at(k + 1).corner || chain.at(k).line) return {};
     if (chain.closed && chain.size() < 4) return {};
     const Vec2 before = chain.position(k - 1), a = chain.position(k), b = chain.position(k + 1),
@@ -121,6 +133,7 @@ std::optional<Chain> join_quadratics(const Chain& chain, long k) {
     const double sine = cross(in, out);
     // More than about 100 degrees: one parabola would not do.
     if (dot(in, out) < -0.2) return {};
+    if (!one_quadratic_fits(input.points, input.options, chain.begin(k), chain.end(k + 1) - 1)) return {};
     Vec2 v = (a + b) * 0.5;
     if (std::abs(sine) > 0.02) {
         const double along = cross(b - a, out) / sine;
@@ -142,16 +155,18 @@ std::optional<Chain> join_quadratics(const Chain& chain, long k) {
     return next;
 }
 
-// Vertex k goes, and one line runs from the joint before its neighbour to the joint after.
-std::optional<Chain> straighten(const Chain& chain, long k) {
+// Vertex k goes, a corner between two lines or a quadratic, and one line runs from the joint before to the joint after.
+std::optional<Chain> straighten(const Chain& chain, const Input& input, long k) {
     if (!chain.closed && (k == 0 || k == chain.size() - 1)) return {};
     if (chain.closed && chain.size() < 2) return {};
     const bool line_before = chain.at(k - 1).line, line_after = chain.at(k).line;
-    // A corner goes only between two lines; a quadratic next to at least one.
-    if (chain.at(k).corner ? !(line_before && line_after) : !(line_before || line_after)) return {};
+    if (chain.at(k).corner && !(line_before && line_after)) return {};
     const Vec2 in = unit(chain.position(k) - chain.position(k - 1));
     const Vec2 out = unit(chain.position(k + 1) - chain.position(k));
     if (dot(in, out) < 0.9) return {};
+    const long begin = line_before ? chain.end(k - 1) : chain.begin(k);
+    const long end = line_after ? chain.begin(k + 1) : chain.end(k);
+    if (!one_line_fits(input.points, input.options, begin, end - 1)) return {};
     const Vec2 first = chain.joint_out(k - 1), last = chain.joint_in(k + 1);
     Chain next = chain;
     next.at(k - 1).line = true;
@@ -162,38 +177,81 @@ std::optional<Chain> straighten(const Chain& chain, long k) {
 }
 
 bool try_move(Chain& chain, const Points& points, const FitOptions& options, Move move, long k) {
-    std::optional<Chain> next = move(chain, k);
+    std::optional<Chain> next = move(chain, {points, options}, k);
     if (!next) return false;
     const Window window = about(*next, k - 2, 5);
     assign_points(*next, points, window);
-    refine_chain(*next, points, options, window, kRefineNear);
-    if (window_error(*next, points, options, window) > options.tolerance) return false;
+    refine_chain(*next, points, options, window, Aim::mean_square, kRefineNear);
+    double error = window_error(*next, points, options, window);
+    if (error > 1.6 * options.tolerance) return false;
+    if (error > options.tolerance) {
+        refine_chain(*next, points, options, window, Aim::largest, kRefineNear);
+        error = window_error(*next, points, options, window);
+    }
+    if (error > options.tolerance) return false;
     chain = std::move(*next);
     return true;
 }
 
 }  // namespace
 
-void repair_chain(Chain& chain, const Points& points, const FitOptions& options) {
-    const double reach = options.corner_reach;
-    assign_points(chain, points, {0, chain.size()});
-    for (int round = 0; round < 12; ++round) {
-        refine_chain(chain, points, options, {0, chain.size()}, kRefineAll);
-        bool changed = false;
-        // From the back, so that an insertion leaves the numbers before it alone.
-        for (long k = chain.size() - 1; k >= 0; --k) {
-            if (k < chain.sides() && chain.at(k).line) {
-                const PieceError e = line_error(chain, points, k, reach);
-                if (e.largest > options.tolerance && e.counted >= kFewest) split_line(chain, k), changed = true;
-            }
-            if (!chain.at(k).corner) {
-                const PieceError e = quadratic_error(chain, points, k, reach);
-                if (e.largest > options.tolerance && e.counted >= kFewest)
-                    split_quadratic(chain, points, k), changed = true;
-            }
+namespace {
+
+double judged_line(const Chain& chain, const Points& points, const FitOptions& options, long k) {
+    if (k >= chain.sides() || !chain.at(k).line) return 0.0;
+    const PieceError e = line_error(chain, points, k, options.corner_reach);
+    return e.counted >= kFewest ? e.judged : 0.0;
+}
+
+double judged_quadratic(const Chain& chain, const Points& points, const FitOptions& options, long k) {
+    if (chain.at(k).corner) return 0.0;
+    const PieceError e = quadratic_error(chain, points, k, options.corner_reach);
+    return e.counted >= kFewest ? e.judged : 0.0;
+}
+
+bool misses(const Chain& chain, const Points& points, const FitOptions& options, long k) {
+    return std::max(judged_line(chain, points, options, k), judged_quadratic(chain, points, options, k)) >
+           options.tolerance;
+}
+
+// Splits pieces that miss the tolerance. The error of a quadratic falls with the fourth power of its length, so a run of
+// quadratics that all miss it by the factor e needs e^(1/4) times as many: only that share of them is split, and the
+// refinement spreads the joints. Gives the number of splits.
+long split_missing(Chain& chain, const Points& points, const FitOptions& options) {
+    long splits = 0;
+    double owed = 0.5;
+    // From the back, so that an insertion leaves the numbers before it alone.
+    for (long k = chain.size() - 1; k >= 0; --k) {
+        if (judged_line(chain, points, options, k) > options.tolerance) split_line(chain, k), ++splits;
+        const double excess = judged_quadratic(chain, points, options, k) / options.tolerance;
+        if (excess <= 1.0) {
+            owed = 0.5;
+            continue;
         }
-        if (!changed) return;
-        assign_points(chain, points, {0, chain.size()});
+        owed += std::max(0.1, std::sqrt(std::sqrt(excess)) - 1.0);
+        if (owed < 0.6) continue;
+        split_quadratic(chain, points, k);
+        owed = std::max(owed - 1.0, -0.5);
+        ++splits;
+    }
+    return splits;
+}
+
+}  // namespace
+
+void repair_chain(Chain& chain, const Points& points, const FitOptions& options) {
+    const auto all = [&] { return Window{0, chain.size()}; };
+    assign_points(chain, points, all());
+    refine_chain(chain, points, options, all(), Aim::mean_square, kRefineAll);
+    // 12: each round takes the error of what it splits to a sixteenth; more would split noise.
+    for (int round = 0; round < 12; ++round) {
+        bool missing = false;
+        for (long k = 0; k < chain.size() && !missing; ++k) missing = misses(chain, points, options, k);
+        if (!missing) return;
+        refine_chain(chain, points, options, all(), Aim::largest, kRefineNear);
+        if (split_missing(chain, points, options) == 0) return;
+        assign_points(chain, points, all());
+        refine_chain(chain, points, options, all(), Aim::mean_square, kRefineNear);
     }
 }
 
