@@ -10,6 +10,7 @@ struct BurinPass {
     float from;      // drop at which the ray is known to be in air
     float add;       // first drop at or after `from` inside an addition, where smaller than `ground`
     float ground;    // first drop at or after `from` below the ground
+    float level;     // drop of the ground
     float air;       // grows: everything between the probe and it is cut away
     bool want_adds;
     int pieces;      // stretches that could hold something, to know when one pass is enough
@@ -56,6 +57,20 @@ float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRa
     return t;
 }
 
+// Side of the profile's point that the ray passes on. On a curved stretch the ray is asked at the height of the point.
+bool burin_passes_left(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 d,
+                       vec2 point, bool straight) {
+    vec2 q = qa;
+    if (!straight) {
+        float share = clamp((point.y - qa.y) / min(d.y, -1.0e-20f), 0.0f, 1.0f);
+        if (share > 0.0f && share < 1.0f)
+            q = burin_section(e, style, piece, ray, mix(range.x, range.y, share)).q;
+        else
+            q = qa + d * share;
+    }
+    return d.x * (point.y - q.y) - d.y * (point.x - q.x) > 0.0f;
+}
+
 BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
                          bool straight, vec2 add_range, float cut_from) {
     BurinEvents found;
@@ -78,11 +93,12 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
         if (i > style.count) break;
         bool internal = i > 0 && i < style.count && ((style.internal >> (i - 1)) & 1u) != 0u;
         vec2 point = i < style.count ? burin_profile_point(style, i) : last;
-        bool left = d.x * (point.y - qa.y) - d.y * (point.x - qa.x) > 0.0f;
+        bool left = last_left;
+        if (i < style.count) left = burin_passes_left(e, style, piece, ray, range, qa, d, point, straight);
         vec2 edge = point - last;
         bool facet = i > 0 && i < style.count;
         if (facet && (last.x <= qe.x) != (point.x <= qe.x)) {
-            if (last.y + edge.y * ((qe.x - last.x) / edge.x) > qe.y) found.add_at_end = !found.add_at_end;
+            if (last.y + edge.y * ((qe.x - last.x) / edge.x) > qe.y + BURIN_FILM) found.add_at_end = !found.add_at_end;
         }
         if (internal && (last.x <= qb.x) != (point.x <= qb.x)) {
             if (last.y + edge.y * ((qb.x - last.x) / edge.x) <= qb.y) run_odd = !run_odd;

@@ -6,12 +6,17 @@
 void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
                  BurinMark mark, BURIN_INOUT(BurinPass) pass) {
     bool straight = piece.kind == BURIN_PIECE_LINEAR && piece.fixed_scale;
+    if (style.stepped) {
+        // The overlap of the sides must not reach over the path line, where the run of cutting facets ends.
+        qa.x = piece.side * max(qa.x * piece.side, 1.0e-6f);
+        qb.x = piece.side * max(qb.x * piece.side, 1.0e-6f);
+    }
     float margin = straight ? 1.0f : 1.25f;
     if (min(qa.x, qb.x) > margin || max(qa.x, qb.x) < -margin) return;
     pass.pieces = pass.pieces + 1;
     float same = BURIN_SAME_DROP * burin_map.depth;
     float add_from = max(pass.from, range.x);
-    vec2 add_range = vec2(add_from > pass.from ? add_from : pass.from + same, pass.ground);
+    vec2 add_range = vec2(add_from > pass.from ? add_from : pass.from + same, pass.ground - same);
     BurinEvents next = burin_events(e, style, piece, ray, range, qa, qb, straight, add_range, pass.air + same);
     mark.wall = range.y == piece.hi ? piece.hi_wall : vec2(0.0f, 0.0f);
     if (range.x <= pass.air && pass.air < range.y) {
@@ -35,9 +40,9 @@ void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ra
     pass.add_mark = mark;
 }
 
-// Stretches on which b' runs nearly straight, so that no crossing of the profile is passed over.
+// Stretches on which b' runs nearly straight, so that no crossing of the profile is passed over; 0: one that is straight.
 int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray) {
-    if (piece.kind == BURIN_PIECE_LINEAR && piece.fixed_scale) return 1;
+    if (piece.kind == BURIN_PIECE_LINEAR && piece.fixed_scale) return 0;
     float way = length(ray.slope) * (piece.hi - piece.lo);
     float bend = 0.0f;
     if (piece.kind == BURIN_PIECE_CURVE) bend = length(e.p0 - 2.0f * e.p1 + e.p2) * 2.0f / max(e.extent * e.extent, 1.0e-12f);
@@ -51,13 +56,25 @@ int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, Buri
 void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinMark mark,
                        BURIN_INOUT(BurinPass) pass) {
     int count = burin_segment_count(e, style, piece, ray);
+    // Additions end at the ground and most cuts begin there, so a bent stretch is parted there.
+    int above = 0;
+    float part = piece.lo;
+    if (count > 0 && pass.level > piece.lo && pass.level < piece.hi) {
+        part = pass.level;
+        above = clamp(int(floor(float(count) * (part - piece.lo) / (piece.hi - piece.lo) + 0.5f)), 1, count);
+        count = max(count, above + 1);
+    }
+    count = max(count, 1);
+    float overlap = 4.0f * BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y) / style.reach;
     bool halved = piece.kind == BURIN_PIECE_CURVE && piece.side != 0.0f;
     vec2 range = vec2(piece.lo, piece.lo);
     vec2 qa = vec2(0.0f, 0.0f);
     vec2 qb = vec2(0.0f, 0.0f);
-    for (int i = 0; i <= BURIN_MAX_SEGMENTS; ++i) {
+    for (int i = 0; i <= BURIN_MAX_SEGMENTS + 1; ++i) {
         if (i > count) break;
-        range = vec2(range.y, i == count ? piece.hi : mix(piece.lo, piece.hi, float(i) / float(count)));
+        float to = i == count ? piece.hi : (i == above ? part : mix(part, piece.hi, float(i - above) / float(count - above)));
+        if (i < above) to = mix(piece.lo, part, float(i) / float(above));
+        range = vec2(range.y, to);
         qa = qb;
         qb = burin_section(e, style, piece, ray, range.y).q;
         if (i == 0) continue;
@@ -65,14 +82,16 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
         vec2 ha = qa;
         vec2 hb = qb;
         if (halved) {
-            // The sides of a curve part where b changes sign.
-            bool from_inside = qa.x * piece.side >= 0.0f;
-            bool to_inside = qb.x * piece.side >= 0.0f;
+            // The sides of a curve part where b changes sign; they overlap a little, as those of a line do.
+            float middle = -piece.side * overlap;
+            vec2 inside = (vec2(qa.x, qb.x) - vec2(middle, middle)) * piece.side;
+            bool from_inside = inside.x >= 0.0f;
+            bool to_inside = inside.y >= 0.0f;
             if (!from_inside && !to_inside) continue;
             if (from_inside != to_inside) {
-                float t = burin_crossing(e, style, piece, ray, range, vec2(qa.x, qb.x), vec2(0.0f, 0.0f),
-                                         vec2(1.0f, 0.0f), false);
-                vec2 q = vec2(0.0f, mix(qa.y, qb.y, (t - range.x) / (range.y - range.x)));
+                float t = burin_crossing(e, style, piece, ray, range, inside, vec2(middle, 0.0f),
+                                         vec2(piece.side, 0.0f), false);
+                vec2 q = vec2(middle, mix(qa.y, qb.y, (t - range.x) / (range.y - range.x)));
                 if (from_inside) {
                     half_range.y = t;
                     hb = q;
@@ -135,6 +154,7 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
         BurinPass pass;
         pass.from = at;
         pass.ground = max(at, ground);
+        pass.level = ground;
         pass.want_adds = !at_add && at < ground;
         pass.add = 1.0e30f;
         float probe = at_add ? add : pass.ground;
@@ -240,7 +260,7 @@ bool burin_trace_outside(BURIN_INOUT(BurinHit) hit, BURIN_INOUT(float) t) {
     }
     if (enter >= leave || enter >= burin_map.outer_level) {
         hit.t = max(t, burin_map.outer_level);
-        if (t < burin_map.outer_level) hit.mark.facet = BURIN_FACET_GROUND;
+        if (t <= burin_map.outer_level) hit.mark.facet = BURIN_FACET_GROUND;
         return true;
     }
     t = enter;

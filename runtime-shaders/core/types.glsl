@@ -113,5 +113,7 @@ struct BurinHit {
 #define BURIN_SAME_DROP 1.0e-6f
 // Part of the depth under which two levels are one code: less than one step of UNORM16.
 #define BURIN_SAME_LEVEL 7.0e-6f
+// Part of the depth that a profile may stand above the ground by rounding where it means to lie on it.
+#define BURIN_FILM 2.0e-5f
 // Part of the tile by which neighbouring domains overlap, half a coordinate step, so that no ray falls between.
 #define BURIN_OVERLAP 1.0e-6f

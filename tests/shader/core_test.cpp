@@ -53,7 +53,7 @@ TEST_P(CoreTest, ShaderAgreesWithTruth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Authored, CoreTest, ::testing::ValuesIn(authored_patterns()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& named) { return named.param.name; });
 
 }  // namespace
 }  // namespace burin::testing

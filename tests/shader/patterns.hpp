@@ -38,7 +38,7 @@ inline Profile undercut(double half, double deep) {
 }
 // Down from left to right by `drop`.
 inline Profile step(double half, double drop) { return {{{-half, 0}, {0, -drop * 0.5}, {half, -drop}}, {}}; }
-inline Profile cliff(double drop) { return {{{0, 0}, {0, -drop}}, {}}; }
+inline Profile cliff(double half, double drop) { return {{{-half, 0}, {0, 0}, {0, -drop}, {half, -drop}}, {}}; }
 
 inline Element line(Vec2 a, Vec2 b) {
     Element e;
@@ -166,7 +166,7 @@ inline Pattern wrapped_pattern() {
 inline Pattern plateau_pattern() {
     Pattern p = base();
     p.size = {1.0, 0.8};
-    p.profiles = {step(0.015, 0.006), cliff(0.005), groove(0.02, 0.004)};
+    p.profiles = {step(0.015, 0.006), cliff(0.01, 0.005), groove(0.02, 0.004)};
     // Clockwise on screen: the inside lies to the right, and is lower.
     Path outer = polyline({{0.15, 0.1}, {0.85, 0.12}, {0.8, 0.7}, {0.2, 0.65}}, 0, true);
     Path inner = polyline({{0.35, 0.25}, {0.65, 0.3}, {0.6, 0.5}, {0.4, 0.5}}, 1, true);

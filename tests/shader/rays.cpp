@@ -90,6 +90,10 @@ Verdict compare(const Truth& truth, const PreparedPattern& p, const AimedRay& ai
         right.hit.element == kGround ? kDecodedGround : p.element_texels[right.hit.element];
     // A wall belongs to whatever stops there; only its being a wall counts.
     v.facet_differs = facet != right.hit.facet || (facet < kWall && texel != hit.element);
+    // Facets of two elements that lie in one plane where they meet are one facet.
+    double cosine = 0.0;
+    for (int i = 0; i < 3; ++i) cosine += double(hit.normal[i]) * right.hit.normal[i];
+    if (v.height < 2e-5 && cosine > 0.99999) v.facet_differs = false;
     v.height_differs = v.height > 1e-3;
     if (!v.facet_differs && !v.height_differs) return v;
     const double step = 2e-5;
