@@ -1,7 +1,5 @@
 #include "container.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cstring>
 #include <string_view>
@@ -41,33 +39,27 @@ Error unknown_format(const std::vector<std::uint8_t>& file) {
     return not_promised(std::string("its first bytes are of no known picture format") + kPromised);
 }
 
-// Some hostile headers announce far more texels than their data can decode to. `per_byte` is the most texel bytes that
-// one stored byte can become.
-Status check_plausible(const Container& container, std::uint64_t max_texels) {
-    if (container.width == 0 || container.height == 0)
-        return damaged("its size is " + std::to_string(container.width) + "x" + std::to_string(container.height));
-    if (container.width > max_texels / container.height)
-        return Error{ErrorCode::limit_exceeded, "it has " + std::to_string(container.width) + "x" +
-                                                    std::to_string(container.height) + " texels, limit " +
-                                                    std::to_string(max_texels) + "; scale it down"};
+}  // namespace
+
+Status check_size(std::uint64_t width, std::uint64_t height, std::uint64_t max_texels) {
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    if (width == 0 || height == 0) return damaged("its size is " + size);
+    if (width > max_texels / height)
+        return Error{ErrorCode::limit_exceeded, "it has " + size + " texels, limit " + std::to_string(max_texels) + "; scale it down"};
     constexpr std::uint64_t kMaxSide = 1u << 20;
-    if (std::max(container.width, container.height) > kMaxSide)
-        return Error{ErrorCode::limit_exceeded,
-                     "its longer side has " + std::to_string(std::max(container.width, container.height)) +
-                         " texels, limit " + std::to_string(kMaxSide)};
+    if (std::max(width, height) > kMaxSide)
+        return Error{ErrorCode::limit_exceeded, "its size is " + size + ", the limit of a side is " + std::to_string(kMaxSide)};
     return Done{};
 }
-
-}  // namespace
 
 Result<Container> inspect_image(std::vector<std::uint8_t> file, std::uint64_t max_texels) {
     const auto checked = [&](Result<Container> container) -> Result<Container> {
         if (!container.ok()) return container;
-        if (Status status = check_plausible(*container, max_texels); !status.ok()) return status.error();
+        if (Status status = check_size(container->width, container->height, max_texels); !status.ok()) return status.error();
         return container;
     };
     using namespace std::string_view_literals;
-    if (starts_with(file, "\x89PNG"sv)) return checked(inspect_png(file));
+    if (starts_with(file, "\x89PNG"sv)) return inspect_png(file, max_texels);
     if (starts_with(file, "\xff\xd8\xff"sv)) return checked(inspect_jpeg(file));
     if (starts_with(file, "II\x2a\0"sv) || starts_with(file, "MM\0\x2a"sv) || starts_with(file, "II\x2b\0"sv) ||
         starts_with(file, "MM\0\x2b"sv))

@@ -63,8 +63,11 @@ class ByteReader {
 // limit_exceeded; the messages do not name the file.
 Result<Container> inspect_image(std::vector<std::uint8_t> file, std::uint64_t max_texels);
 
-// One per format; `inspect_image` chooses by the first bytes.
-Result<Container> inspect_png(const std::vector<std::uint8_t>& file);
+// Whether a picture of that size is taken at all.
+Status check_size(std::uint64_t width, std::uint64_t height, std::uint64_t max_texels);
+
+// One per format; `inspect_image` chooses by the first bytes. PNG asks for the limit itself, before it inflates.
+Result<Container> inspect_png(const std::vector<std::uint8_t>& file, std::uint64_t max_texels);
 Result<Container> inspect_jpeg(const std::vector<std::uint8_t>& file);
 Result<Container> inspect_tiff(std::vector<std::uint8_t> file);
 Result<Container> inspect_exr(const std::vector<std::uint8_t>& file);

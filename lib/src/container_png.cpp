@@ -1,8 +1,9 @@
 // PNG: chunks and their checksums. Kept: IHDR, PLTE, IDAT, IEND.
 #include <zlib.h>
 
-#include <array>
+#include <algorithm>
 #include <string_view>
+#include <vector>
 
 #include "container.hpp"
 
@@ -114,9 +115,118 @@ Status check_data_size(const Header& header, std::uint64_t data_bytes) {
     return Done{};
 }
 
+// Bytes of one row of each pass with its filter byte, and the number of rows.
+struct Pass {
+    std::uint64_t row_bytes = 0, rows = 0;
+};
+
+std::vector<Pass> passes_of(const Header& h) {
+    const auto row_bytes = [&](std::uint64_t width) {
+        return (width * static_cast<unsigned>(h.samples() * h.bit_depth) + 7) / 8 + 1;
+    };
+    if (h.interlace == 0) return {{row_bytes(h.width), h.height}};
+    // Adam7: first column and row, and the steps, of the seven passes.
+    static constexpr std::uint32_t kSteps[7][4] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                                                   {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
+    std::vector<Pass> passes;
+    for (const auto& s : kSteps) {
+        if (h.width <= s[0] || h.height <= s[1]) continue;  // nothing of a small picture falls into this pass
+        const std::uint64_t columns = (std::uint64_t{h.width} - s[0] + s[2] - 1) / s[2];
+        passes.push_back({row_bytes(columns), (std::uint64_t{h.height} - s[1] + s[3] - 1) / s[3]});
+    }
+    return passes;
+}
+
+// Follows the inflated bytes: which of them is a row's filter byte, and whether they are as many as the size asks for.
+class RowWalk {
+  public:
+    explicit RowWalk(const Header& header) : passes_(passes_of(header)) {}
+
+    Status take(const std::uint8_t* bytes, std::uint64_t count) {
+        while (count > 0) {
+            if (pass_ == passes_.size()) return damaged("PNG: there is more data than the picture has rows");
+            if (in_row_ == 0 && *bytes > 4)
+                return damaged("PNG: row " + std::to_string(row_) + " has the unknown filter " + std::to_string(*bytes));
+            const std::uint64_t step = std::min(count, passes_[pass_].row_bytes - in_row_);
+            bytes += step;
+            count -= step;
+            in_row_ += step;
+            if (in_row_ < passes_[pass_].row_bytes) continue;
+            in_row_ = 0;
+            if (++row_ == passes_[pass_].rows) {
+                row_ = 0;
+                ++pass_;
+            }
+        }
+        return Done{};
+    }
+
+    bool complete() const { return pass_ == passes_.size(); }
+
+  private:
+    std::vector<Pass> passes_;
+    std::size_t pass_ = 0;
+    std::uint64_t row_ = 0, in_row_ = 0;
+};
+
+// Inflates the data once to see that it is whole: the decoder would write its complaints to the terminal, and some
+// would be warnings over rows that it made up.
+class DataCheck {
+  public:
+    explicit DataCheck(const Header& header) : rows_(header) { started_ = inflateInit(&stream_) == Z_OK; }
+    ~DataCheck() {
+        if (started_) inflateEnd(&stream_);
+    }
+    DataCheck(const DataCheck&) = delete;
+    DataCheck& operator=(const DataCheck&) = delete;
+
+    Status take(const std::uint8_t* data, std::uint64_t size) {
+        if (!started_) return Error{ErrorCode::limit_exceeded, "PNG: not enough memory to inflate"};
+        stream_.next_in = const_cast<Bytef*>(data);
+        stream_.avail_in = static_cast<uInt>(size);  // chunks stay below 2^31
+        while (!ended_ && (stream_.avail_in > 0 || stream_.avail_out == 0)) {
+            stream_.next_out = piece_.data();
+            stream_.avail_out = static_cast<uInt>(piece_.size());
+            const int state = inflate(&stream_, Z_NO_FLUSH);
+            if (state != Z_OK && state != Z_STREAM_END && state != Z_BUF_ERROR)
+                return damaged(std::string("PNG: the data cannot be inflated: ") +
+                               (stream_.msg != nullptr ? stream_.msg : "wrong stream"));
+            if (Status status = rows_.take(piece_.data(), piece_.size() - stream_.avail_out); !status.ok()) return status;
+            ended_ = state == Z_STREAM_END;
+            if (state == Z_BUF_ERROR) break;
+        }
+        if (ended_ && stream_.avail_in > 0) return damaged("PNG: there are bytes after the end of the data");
+        return Done{};
+    }
+
+    Status finish() const {
+        if (!ended_ || !rows_.complete()) return damaged("PNG: the data ends before the last row");
+        return Done{};
+    }
+
+  private:
+    z_stream stream_{};
+    std::vector<std::uint8_t> piece_ = std::vector<std::uint8_t>(1u << 16);
+    RowWalk rows_;
+    bool started_ = false, ended_ = false;
+};
+
+// Requires: the chunks from `at` on were walked without finding fault.
+Status check_data(const std::vector<std::uint8_t>& file, const Header& header, std::uint64_t at) {
+    DataCheck check(header);
+    while (true) {
+        Result<Chunk> chunk = read_chunk(file, at);
+        if (!chunk.ok()) return chunk.error();
+        if (chunk->type == "IEND") return check.finish();
+        if (chunk->type == "IDAT")
+            if (Status status = check.take(file.data() + chunk->data, chunk->size); !status.ok()) return status;
+        at = chunk->end();
+    }
+}
+
 }  // namespace
 
-Result<Container> inspect_png(const std::vector<std::uint8_t>& file) {
+Result<Container> inspect_png(const std::vector<std::uint8_t>& file, std::uint64_t max_texels) {
     constexpr std::string_view kSignature{"\x89PNG\r\n\x1a\n", 8};
     if (file.size() < 8 || std::string_view(reinterpret_cast<const char*>(file.data()), 8) != kSignature)
         return damaged("PNG: the signature is damaged, as by a transfer in text mode");
@@ -149,6 +259,8 @@ Result<Container> inspect_png(const std::vector<std::uint8_t>& file) {
     }
     if (walk.data_bytes == 0) return damaged("PNG: there is no IDAT chunk, so no picture");
     if (Status status = check_data_size(*header, walk.data_bytes); !status.ok()) return status.error();
+    if (Status status = check_size(header->width, header->height, max_texels); !status.ok()) return status.error();
+    if (Status status = check_data(file, *header, first->end()); !status.ok()) return status.error();
     result.width = header->width;
     result.height = header->height;
     result.channels = header->samples();

@@ -1,7 +1,5 @@
 #include <burin/image_io.hpp>
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -9,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "exr.hpp"
 #include "file_io.hpp"
 #include "png.hpp"
 
@@ -70,18 +69,9 @@ Status write_tiff(const std::string& path, const Image& heights) {
 }
 
 Status write_exr(const std::string& path, const Image& heights) {
-    return write_atomically(path, [&](const std::string& name) -> Status {
-        auto output = OIIO::ImageOutput::create("openexr");
-        if (output == nullptr) return Error{ErrorCode::unavailable, "this OpenImageIO cannot write OpenEXR"};
-        OIIO::ImageSpec spec(heights.width, heights.height, 1, OIIO::TypeDesc::FLOAT);
-        spec.channelnames = {"Y"};
-        spec.attribute("compression", "zip");
-        bool good = output->open(name, spec);
-        good = good && output->write_image(OIIO::TypeDesc::FLOAT, heights.texels.data());
-        good = output->close() && good;
-        if (!good) return Error{ErrorCode::io_failed, "cannot write '" + path + "': " + output->geterror()};
-        return Done{};
-    });
+    auto exr = encode_exr(heights);
+    if (!exr.ok()) return exr.error();
+    return write_file(path, *exr);
 }
 
 Status write_grey_png(const std::string& path, const Image& heights) {
