@@ -67,11 +67,13 @@ bool burin_own_sector(BurinEnd end, float side) {
 }
 
 // Borders that an end sets to the main part, and to the parts beyond the other end.
-BurinPiece burin_clip_main(BurinPiece piece, BurinRay ray, BurinEnd end, float side, bool curved) {
+BurinPiece burin_clip_main(BurinPiece piece, BurinRay ray, BurinEnd end, float side, bool curved,
+                            float slack) {
     bool both = end.priority == BURIN_PRIORITY_BOTH;
     bool own = burin_own_sector(end, side);
     bool clipped = own || (both && end.shape == BURIN_END_CLIP);
-    if (clipped) piece = burin_clip(piece, ray, end.vertex, burin_clip_normal(end));
+    vec2 across = burin_clip_normal(end);
+    if (clipped) piece = burin_clip(piece, ray, end.vertex - across * (both ? slack : 0.0f), across);
     if (clipped && (both || end.shape == BURIN_CORNER_MITRE)) return piece;
     // A hip beyond a line goes on as b' = b while |b| >= a.
     vec2 border = end.inward;
@@ -129,15 +131,15 @@ BurinPiece burin_part(BurinElement e, BurinRay ray, BurinPiece whole, int part, 
     BurinEnd start = burin_end(e, true);
     BurinEnd end = burin_end(e, false);
     if (part == BURIN_PART_MAIN) {
-        piece = burin_clip_main(piece, ray, start, side, e.curved);
-        piece = burin_clip_main(piece, ray, end, side, e.curved);
+        piece = burin_clip_main(piece, ray, start, side, e.curved, e.slack);
+        piece = burin_clip_main(piece, ray, end, side, e.curved, e.slack);
         if (!e.curved) piece = burin_clip(piece, ray, e.p0, side * start.normal);
     } else if (part == BURIN_PART_START || part == BURIN_PART_START_FLANK) {
         piece = burin_clip_beyond(piece, ray, start, side, part == BURIN_PART_START_FLANK);
-        piece = burin_clip_main(piece, ray, end, side, e.curved);
+        piece = burin_clip_main(piece, ray, end, side, e.curved, e.slack);
     } else {
         piece = burin_clip_beyond(piece, ray, end, side, part == BURIN_PART_END_FLANK);
-        piece = burin_clip_main(piece, ray, start, side, e.curved);
+        piece = burin_clip_main(piece, ray, start, side, e.curved, e.slack);
     }
     return piece;
 }

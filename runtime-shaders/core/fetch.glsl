@@ -82,6 +82,7 @@ BurinElement burin_element(uint reference, vec2 origin, vec2 centre) {
     e.clip0 = float(a.x >> 20) * (3.14159265f / float(BURIN_CLIP_ANGLE_STEPS));
     e.clip2 = float(a.y >> 20) * (3.14159265f / float(BURIN_CLIP_ANGLE_STEPS));
     e.style = a.w >> 20;
+    e.slack = 0.0f;
     return e;
 }
 
@@ -97,6 +98,12 @@ BurinStyle burin_style(uint index) {
     style.reach = uintBitsToFloat(texel.z);
     style.internal = texel.w;
     return style;
+}
+
+// A clip line that ends a feature on the path line of another one is turned by the rounding of its angle. The feature
+// runs on by what that can amount to at the rim, or a sheet of solid would stand between the two.
+float burin_clip_slack(BurinElement e, BurinStyle style) {
+    return BURIN_CLIP_ROUNDING * style.reach * max(e.scales.x, e.scales.y);
 }
 
 vec2 burin_profile_point(BurinStyle style, int i) {

@@ -113,6 +113,7 @@ void burin_visit(uint reference, BurinRay ray, vec2 centre, vec2 stretch, float 
     bool left = abs(style.level - ground) < same;
     bool right = abs(style.right_level - ground) < same;
     if (!left && !right) return;
+    e.slack = burin_clip_slack(e, style);
     float pad = BURIN_SAME_DROP * burin_map.depth + 1.0e-5f * (stretch.y - stretch.x);
     BurinPiece whole;
     whole.lo = stretch.x - pad;

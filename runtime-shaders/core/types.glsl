@@ -49,6 +49,7 @@ struct BurinElement {
     float clip2;
     vec4 scales;  // width at start and end, height at start and end
     uint style;
+    float slack;  // metres by which a clip line may stand off where it should, see burin_clip_slack
 };
 
 struct BurinStyle {
@@ -117,3 +118,5 @@ struct BurinHit {
 #define BURIN_FILM 2.0e-5f
 // Part of the tile by which neighbouring domains overlap, half a coordinate step, so that no ray falls between.
 #define BURIN_OVERLAP 1.0e-6f
+// Half a step of a clip angle, radians.
+#define BURIN_CLIP_ROUNDING 4.0e-4f

@@ -25,7 +25,8 @@ void expect_agreement(const Agreement& agreement, const std::string& name) {
         EXPECT_GE(agreement.facet_share(kind), 0.999) << name << ", seed " << kSeed << "\n" << agreement.worst;
         EXPECT_LE(agreement.height_differs[k], agreement.rays[k] / 1000) << name << "\n" << agreement.worst;
         // The rule about borders must not excuse what it is not for.
-        EXPECT_LE(agreement.borders[k], agreement.rays[k] / 50) << name;
+        EXPECT_LE(agreement.borders[k], agreement.rays[k] / 200) << name;
+        EXPECT_LE(agreement.sheets[k], agreement.rays[k] / 200) << name;
     }
 }
 

@@ -77,9 +77,25 @@ std::uint32_t facet_word(int facet) {
 }
 
 struct Verdict {
-    bool facet_differs = false, height_differs = false, border = false;
+    bool facet_differs = false, height_differs = false, border = false, sheet = false;
     double height = 0.0;
 };
+
+// Whether the truth met a sheet of solid thinner than 2e-5 of the tile, and what stands behind it is what the decoder met.
+bool is_sheet(const Truth& truth, const PreparedPattern& p, PatternRay ray, const TruthHit& front, double drop) {
+    const double run = std::hypot(double(ray.slope[0]), double(ray.slope[1]));
+    if (run == 0.0) return false;
+    const double past = front.drop + 2e-5 * std::max(p.detail.size_u, p.detail.size_v) / run;
+    Ray r;
+    r.origin[0] = double(ray.origin[0]) + double(ray.slope[0]) * past;
+    r.origin[1] = double(ray.origin[1]) + double(ray.slope[1]) * past;
+    r.origin[2] = p.detail.base_offset - past;
+    r.direction[0] = double(ray.slope[0]);
+    r.direction[1] = double(ray.slope[1]);
+    r.direction[2] = -1.0;
+    const RayHit behind = truth.trace_ray(r);
+    return !behind.inside && std::abs(past + behind.t - drop) < 1e-3 * p.detail.depth;
+}
 
 Verdict compare(const Truth& truth, const PreparedPattern& p, const AimedRay& aimed, const ShadedHit& hit) {
     const TruthHit right = ask(truth, p, aimed.ray, {});
@@ -96,6 +112,8 @@ Verdict compare(const Truth& truth, const PreparedPattern& p, const AimedRay& ai
     if (v.height < 2e-5 && cosine > 0.99999) v.facet_differs = false;
     v.height_differs = v.height > 1e-3;
     if (!v.facet_differs && !v.height_differs) return v;
+    v.sheet = is_sheet(truth, p, aimed.ray, right, double(hit.drop));
+    if (v.sheet) v.facet_differs = v.height_differs = false;
     const double step = 2e-5;
     for (const Vec2 way : {Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}, Vec2{0.7, 0.7}, Vec2{-0.7, -0.7},
                            Vec2{0.7, -0.7}, Vec2{-0.7, 0.7}}) {
@@ -159,9 +177,9 @@ std::string Agreement::report(const std::string& name) const {
     for (int k = 0; k < kRayKinds; ++k) {
         char row[200];
         const std::size_t i = std::size_t(k);
-        std::snprintf(row, sizeof row, "%-10s %-10s %7d rays  same facet %9.5f %%  height off %5d  at borders %5d\n",
+        std::snprintf(row, sizeof row, "%-10s %-10s %7d rays  same facet %9.5f %%  height off %5d  at borders %5d  sheets %4d\n",
                       name.c_str(), kRayKindNames[k], rays[i], 100.0 * facet_share(RayKind(k)), height_differs[i],
-                      borders[i]);
+                      borders[i], sheets[i]);
         text += row;
     }
     char row[100];
@@ -180,10 +198,11 @@ Agreement judge(const PreparedPattern& p, const std::vector<AimedRay>& rays, con
         const std::size_t k = std::size_t(rays[i].kind);
         const Verdict& v = verdicts[i];
         ++sum.rays[k];
-        sum.borders[k] += v.border;
+        sum.borders[k] += v.border && !v.sheet;
+        sum.sheets[k] += v.sheet;
         sum.facet_differs[k] += v.facet_differs && !v.border;
         sum.height_differs[k] += v.height_differs && !v.border;
-        if (!v.facet_differs) sum.worst_height = std::max(sum.worst_height, v.border ? 0.0 : v.height);
+        if (!v.facet_differs && !v.sheet) sum.worst_height = std::max(sum.worst_height, v.border ? 0.0 : v.height);
         if ((v.facet_differs || v.height_differs) && !v.border && sum.worst.size() < 2000) {
             const PatternRay& r = rays[i].ray;
             const TruthHit right = ask(truth, p, r, {});
