@@ -170,6 +170,19 @@ std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, double tol
     return fitted;
 }
 
+// Contours of one map never cross; where their fits do, they are fitted again by lines ever closer to the points.
+void untangle_steps(std::vector<FittedChain>& chains, const Lattice& lattice, double tolerance) {
+    for (const double closer : {0.5, 0.15, 0.0}) {
+        const std::vector<std::uint8_t> tangled = find_tangled_steps(chains, lattice);
+        if (std::find(tangled.begin(), tangled.end(), 1) == tangled.end()) return;
+        for (std::size_t c = 0; c < chains.size(); ++c) {
+            if (!tangled[c]) continue;
+            chains[c].elements = fit_polyline(chains[c].chain, closer * tolerance);
+            chains[c].length = chain_length(chains[c].elements);
+        }
+    }
+}
+
 std::size_t count_elements(const std::vector<FittedChain>& chains) {
     std::size_t sum = 0;
     for (const FittedChain& fitted : chains) sum += fitted.elements.size();
@@ -312,6 +325,7 @@ Result<Vectorized> vectorize_map(const HeightMap& source, const VectorizeOptions
         result.tolerance *= 1.35;
         fitted = fit_chains(traced.chains, result.tolerance, threads);
     }
+    untangle_steps(fitted, lattice, result.tolerance);
     if (!proceed(0.6)) return stopped;
 
     ProfileOptions profile_options;

@@ -79,6 +79,9 @@ void thin_mask(std::vector<std::uint8_t>& mask, const Lattice& lattice);
 std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
                                double energy);
 
+// Ends that stop just before, in, or just behind another chain are T ends on it.
+void extend_to_lines(std::vector<Chain>& chains, const Lattice& lattice);
+
 // Sum of squared responses: how much of the map is grooves (or ridges) narrower than twice `radius`.
 double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise);
 

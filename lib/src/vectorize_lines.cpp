@@ -86,23 +86,20 @@ double chain_length(const Chain& chain) {
     return sum;
 }
 
-double median_of(std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-// Median of the map across the chain at offsets -n..n steps of 0.5 texel; and how much of the variance it explains.
+// The map across a chain, relative to the ground beside each place: medians over the chain.
 struct CrossSection {
-    std::vector<double> height;
-    double explained = 0.0;
+    double depth = 0.0;      // of the middle below (above) the ground
+    double tilt = 0.0;       // right ground - left ground
+    double explained = 0.0;  // share of the variance that the median section explains
+    double wobble = 0.0;     // what it leaves, in texels by which the rims would have to be off to leave as much
 };
 
-CrossSection measure_cross_section(const Chain& chain, const Image& map, const Lattice& lattice, double reach) {
-    constexpr double kStep = 0.5;
-    const int n = static_cast<int>(std::ceil(reach / kStep));
-    CrossSection section;
-    std::vector<std::vector<float>> values(static_cast<std::size_t>(2 * n + 1));
+// One row per place along the chain, offsets -n..n steps of half a texel; the mean of both ends is subtracted, so that
+// a line that runs over soft or stepped ground still has one section.
+std::vector<std::vector<float>> sample_sections(const Chain& chain, const Image& map, const Lattice& lattice, int n,
+                                                std::vector<float>& tilts) {
+    std::vector<std::vector<float>> columns(static_cast<std::size_t>(2 * n + 1));
+    std::vector<float> row(columns.size());
     for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
         const Vec2 a = chain.points[i], b = chain.points[i + 1];
         const double l = length(b - a);
@@ -111,42 +108,62 @@ CrossSection measure_cross_section(const Chain& chain, const Image& map, const L
         const int pieces = std::max(1, static_cast<int>(l / 2.0));
         for (int piece = 0; piece < pieces; ++piece) {
             const Vec2 p = lerp(a, b, (piece + 0.5) / pieces);
-            for (int k = -n; k <= n; ++k) values[k + n].push_back(sample(map, lattice, p + normal * (k * kStep)));
+            for (int k = -n; k <= n; ++k) row[k + n] = sample(map, lattice, p + normal * (k * 0.5));
+            const float ground = 0.5f * (row.front() + row.back());
+            tilts.push_back(row.back() - row.front());
+            for (std::size_t k = 0; k < row.size(); ++k) columns[k].push_back(row[k] - ground);
         }
     }
-    double total = 0.0, left = 0.0, mean = 0.0, count = 0.0;
-    for (auto& column : values) {
-        if (column.empty()) return section;
-        section.height.push_back(median_of(column));
-        for (const float v : column) mean += v;
-        count += static_cast<double>(column.size());
+    return columns;
+}
+
+CrossSection measure_cross_section(const Chain& chain, const Image& map, const Lattice& lattice, double reach) {
+    const int n = static_cast<int>(std::ceil(reach / 0.5));
+    std::vector<float> tilts;
+    std::vector<std::vector<float>> columns = sample_sections(chain, map, lattice, n, tilts);
+    CrossSection section;
+    if (tilts.size() < 2) return section;
+    std::nth_element(tilts.begin(), tilts.begin() + static_cast<std::ptrdiff_t>(tilts.size() / 2), tilts.end());
+    section.tilt = tilts[tilts.size() / 2];
+    // Lines that cross this one and specks are outliers: the residual is taken over the middle 80 % of each offset.
+    std::vector<double> height;
+    double left = 0.0, mean = 0.0, model = 0.0;
+    for (auto& column : columns) {
+        std::sort(column.begin(), column.end());
+        const double median = column[column.size() / 2];
+        height.push_back(median);
+        mean += median / static_cast<double>(columns.size());
+        const std::size_t cut = column.size() / 10;
+        double sum = 0.0;
+        for (std::size_t i = cut; i < column.size() - cut; ++i) sum += (column[i] - median) * (column[i] - median);
+        left += sum / static_cast<double>(column.size() - 2 * cut);
     }
-    mean /= count;
-    for (std::size_t k = 0; k < values.size(); ++k)
-        for (const float v : values[k]) {
-            total += (v - mean) * (v - mean);
-            left += (v - section.height[k]) * (v - section.height[k]);
-        }
-    section.explained = total > 0.0 ? 1.0 - left / total : 0.0;
+    for (const double h : height) model += (h - mean) * (h - mean);
+    section.depth = std::fabs(height[static_cast<std::size_t>(n)] - 0.5 * (height.front() + height.back()));
+    section.explained = model + left > 0.0 ? model / (model + left) : 0.0;
+    section.wobble = 0.5 * left / std::max(1e-9, section.depth * section.depth);
     return section;
 }
 
 // A line has one section all along it, and the same ground on both sides. What fails this is the rim of a plateau or a
-// blob, which the step contours describe better.
+// blob, which the step contours describe better; and so do they a wide line whose rims are ragged.
 bool is_line(const Chain& chain, const Image& map, const Lattice& lattice, double noise) {
     const double extent = chain_length(chain) + 2.0 * chain.half_width;
     if (extent < 3.0 * chain.half_width + 3.0 || chain.contrast < 3.0 * noise) return false;
-    const double reach = std::max(3.0, 1.6 * chain.half_width + 1.5);
-    const CrossSection section = measure_cross_section(chain, map, lattice, reach);
-    if (section.height.empty()) return false;
-    const double left = section.height.front(), right = section.height.back();
-    const double middle = section.height[section.height.size() / 2];
-    const double depth = std::fabs(0.5 * (left + right) - middle);
-    // Thin lines never fit their mean section well, since half a texel of wobble is half their width; a wide one that
-    // does not fit is better described by its two rims.
-    const double wide = std::clamp((chain.half_width - 2.0) / 3.0, 0.0, 1.0);
-    const double needed = 0.55 + 0.37 * wide;
-    return depth > std::max(3.0 * noise, 0.012) && std::fabs(left - right) < 0.35 * depth && section.explained > needed;
+    // A thin line may have a rim of its own on one side: there the ground lies farther out.
+    const double near = std::max(3.0, 1.6 * chain.half_width + 1.5);
+    for (const double reach : {near, 4.0 * near}) {
+        if (reach > near && chain.half_width > 1.5) return false;
+        const CrossSection section = measure_cross_section(chain, map, lattice, reach);
+        // A closing that does not span the line fills only a part of it: it is wider than it looks.
+        if (chain.half_width > 2.0 && chain.contrast < 0.93 * section.depth) return false;
+        const double grain = 0.5 * (4.0 * reach + 1.0) * (noise / section.depth) * (noise / section.depth);
+        const bool straight_rims = chain.half_width < 2.5 || section.wobble - grain < 0.13;
+        if (section.depth > std::max(3.0 * noise, 0.012) && std::fabs(section.tilt) < 0.35 * section.depth &&
+            section.explained > 0.55 && straight_rims)
+            return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -212,7 +229,8 @@ std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kin
     const int r = square_radius(radius);
     const Image response = hat_response(map, lattice, kind, r);
     const double least = least_response(noise);
-    std::vector<std::uint8_t> mask = half_height_mask(response, lattice, r, least);
+    // A wide window would hide a shallow line where it comes near a deep one.
+    std::vector<std::uint8_t> mask = half_height_mask(response, lattice, std::max(4, r / 3), least);
     drop_specks(mask, response, lattice, 24.0 * least * least);
     const std::vector<float> thickness = distance_inside(mask, lattice);
     thin_mask(mask, lattice);
@@ -226,6 +244,7 @@ std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kin
                                 }),
                  chains.end());
     erase_lines(map, response, lattice, chains, kind);
+    extend_to_lines(chains, lattice);
     return chains;
 }
 

@@ -308,9 +308,13 @@ void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, cons
 
 ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, const Lattice& lattice,
                             Regions& regions, const ProfileOptions& options) {
-    const std::vector<Owner> owners = find_owners(chains, lattice, options.reach);
-    settle_levels(regions, map, owners, options.reach);
+    settle_levels(regions, map, find_owners(chains, lattice, options.reach), options.reach);
     share_levels(regions, std::max(2.0 * options.noise, 0.02));
+    // Between regions that came to one level there is no step, but there may be a line along their border.
+    for (FittedChain& f : chains)
+        if (f.chain.kind == ChainKind::step && regions.level[f.chain.left_region] == regions.level[f.chain.right_region])
+            f.chain.kind = ChainKind::groove;
+    const std::vector<Owner> owners = find_owners(chains, lattice, options.reach);
     const int half = static_cast<int>(std::ceil(options.reach / kSectionStep));
     ProfileSet set;
     double closeness = 0.04;

@@ -32,6 +32,9 @@ struct ProfileOptions {
 ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, const Lattice& lattice,
                             Regions& regions, const ProfileOptions& options);
 
+// Per chain: 1 when it is a step whose elements cross those of a step, itself included.
+std::vector<std::uint8_t> find_tangled_steps(const std::vector<FittedChain>& chains, const Lattice& lattice);
+
 // Fewest points whose polyline follows the section within the grain; both ends on the ground. Steep facets no wider
 // than a texel's own blur are made steeper by it.
 Profile fit_profile(const std::vector<double>& height, const std::vector<double>& weight, double right_level,

@@ -236,12 +236,17 @@ bool merge_weak(const Image& map, const Lattice& lattice, Regions& regions, cons
     }
     if (weak.empty()) return false;
     std::stable_sort(weak.begin(), weak.end(), [](const Weak& p, const Weak& q) { return p.strength < q.strength; });
-    // One join per region and round, the most alike first: levels change by it, and so do the other borders.
-    std::vector<std::uint8_t> busy(regions.level.size(), 0);
+    // The most alike first, the smaller into the larger. Levels change by it, so nothing that took part is joined to
+    // a third region in the same round, except that one may take up many.
+    enum State : std::uint8_t { untouched, taker, taken };
+    std::vector<std::uint8_t> state(regions.level.size(), untouched);
     for (const Weak& w : weak) {
-        if (busy[w.a] || busy[w.b]) continue;
-        busy[w.a] = busy[w.b] = 1;
-        parent[root_of(parent, w.b)] = root_of(parent, w.a);
+        const bool first_smaller = regions.area[w.a] < regions.area[w.b];
+        const std::uint32_t small = first_smaller ? w.a : w.b, large = first_smaller ? w.b : w.a;
+        if (state[small] != untouched || state[large] == taken) continue;
+        state[small] = taken;
+        state[large] = taker;
+        parent[root_of(parent, small)] = root_of(parent, large);
     }
     std::vector<std::uint32_t> renumber(parent.size(), kNone);
     std::uint32_t next = 0;

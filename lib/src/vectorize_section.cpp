@@ -20,7 +20,7 @@ int find_reach(const std::vector<double>& height, const std::vector<double>& wei
     int reach = 0;
     for (int k = 0; k <= half; ++k) {
         const std::size_t i = static_cast<std::size_t>(half + direction * k);
-        if (weight[i] >= std::max(2.0, 0.08 * heaviest) && std::fabs(height[i]) > least) reach = k;
+        if (weight[i] >= std::max(2.0, 0.35 * heaviest) && std::fabs(height[i]) > least) reach = k;
     }
     return reach;
 }
@@ -92,7 +92,7 @@ Profile fit_profile(const std::vector<double>& height, const std::vector<double>
     double most = std::fabs(right_level), total = 0.0, heaviest = 0.0;
     for (const double w : weight) heaviest = std::max(heaviest, w);
     for (std::size_t k = 0; k < height.size(); ++k) {
-        if (weight[k] >= 0.08 * heaviest) most = std::max(most, std::fabs(height[k]));
+        if (weight[k] >= 0.35 * heaviest) most = std::max(most, std::fabs(height[k]));
         total += weight[k];
     }
     const double tolerance = 0.008 * most + 0.1 * noise;

@@ -84,18 +84,16 @@ class BorderTracer {
         taken_[slot(next)] |= static_cast<std::uint8_t>(1 << ((dir + 2) % 4));
     }
 
-    // Where the map passes half height between the texels beside an edge.
+    // Where the map passes half height between the texels beside an edge; where it does not, because a speck or a third
+    // level disturbs it, near the texel that is nearer to half height. A point never leaves its own edge, so that
+    // contours neither cross themselves nor each other.
     Vec2 crossing(Corner a, Corner b) const {
         const double half = 0.5 * (regions_.level[label(a.x, a.y)] + regions_.level[label(b.x, b.y)]);
-        const int dx = b.x - a.x, dy = b.y - a.y;
-        for (const int shift : {0, 1, -1, 2, -2}) {
-            const double va = map_.texels[lattice_.nearest(a.x + shift * dx, a.y + shift * dy)];
-            const double vb = map_.texels[lattice_.nearest(b.x + shift * dx, b.y + shift * dy)];
-            if ((va - half) * (vb - half) > 0.0 || va == vb) continue;
-            const double t = shift + (va - half) / (va - vb);
-            return {a.x + 0.5 + t * dx, a.y + 0.5 + t * dy};
-        }
-        return {0.5 * (a.x + b.x) + 0.5, 0.5 * (a.y + b.y) + 0.5};
+        const double va = map_.texels[lattice_.nearest(a.x, a.y)] - half;
+        const double vb = map_.texels[lattice_.nearest(b.x, b.y)] - half;
+        double t = std::fabs(va) < std::fabs(vb) ? 0.02 : 0.98;
+        if (va * vb < 0.0) t = std::clamp(va / (va - vb), 0.02, 0.98);
+        return {a.x + 0.5 + t * (b.x - a.x), a.y + 0.5 + t * (b.y - a.y)};
     }
 
     // The next edge of the same border; at a saddle the lower label is cut apart.
