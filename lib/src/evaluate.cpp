@@ -10,7 +10,8 @@ namespace {
 using truth::Local;
 using Prepared = Truth::Prepared;
 
-// ---- ground --------------------------------------------------------------------------------------------------
+// ---- ground
+// --------------------------------------------------------------------------------------------------
 
 // What a straight way from p to a target meets first.
 struct Crossing {
@@ -73,7 +74,8 @@ double find_ground(const Prepared& truth, Vec2 p) {
     if (truth.steps.empty() || !truth::inside_map(truth, p)) return truth.outer_level;
     Crossing fallback;
     // Irrational places on the element, so that designed patterns are met at generic points.
-    static constexpr double kPlaces[] = {0.4370160244488211, 0.6180339887498949, 0.2360679774997897, 0.8541019662496845};
+    static constexpr double kPlaces[] = {0.4370160244488211, 0.6180339887498949, 0.2360679774997897,
+                                         0.8541019662496845};
     const auto order = nearest_steps(truth, p);
     for (const double place : kPlaces)
         for (const auto& [distance, index] : order) {
@@ -91,9 +93,11 @@ double find_ground(const Prepared& truth, Vec2 p) {
     return fallback.found ? fallback.level : truth.outer_level;
 }
 
-// ---- surface -------------------------------------------------------------------------------------------------
+// ---- surface
+// -------------------------------------------------------------------------------------------------
 
-// A stretch of a vertical line that an element adds or cuts, and the facet that bounds it towards the solid's top.
+// A stretch of a vertical line that an element adds or cuts, and the facet that bounds it towards the solid's
+// top.
 struct Span {
     double low, high;
     std::uint32_t element, facet;
@@ -117,8 +121,8 @@ struct FacetCrossing {
 };
 
 // Heights where the vertical line at the element's b' meets facets of `mask`, ascending.
-int crossings_of(const PreparedProfile& profile, const PreparedElement& e, const Local& local, std::uint32_t first,
-                 std::uint32_t last, FacetCrossing* out) {
+int crossings_of(const PreparedProfile& profile, const PreparedElement& e, const Local& local,
+                 std::uint32_t first, std::uint32_t last, FacetCrossing* out) {
     const double b = local.offset / local.width;
     int n = 0;
     for (std::uint32_t i = first; i < last; ++i) {
@@ -130,7 +134,8 @@ int crossings_of(const PreparedProfile& profile, const PreparedElement& e, const
     return n;
 }
 
-void add_spans(const Prepared& truth, const Acting& acting, std::uint32_t place, double ground, Column& column) {
+void add_spans(const Prepared& truth, const Acting& acting, std::uint32_t place, double ground,
+               Column& column) {
     const PreparedElement& e = truth.elements[acting.index];
     const PreparedProfile& profile = truth.profiles[e.profile];
     const std::uint32_t facets = static_cast<std::uint32_t>(profile.points.size()) - 1;
@@ -161,14 +166,16 @@ void set_normal(const Prepared& truth, const Acting& acting, std::uint32_t facet
     // z = level + H (h_i + m (b' / W - b_i)), with W, H the scales.
     const double m = profile.slope[facet], b = acting.local.offset / acting.local.width;
     const double h = profile.points[facet].h + m * (b - profile.points[facet].b);
-    const Vec2 slope = g.height * h + (g.offset - g.width * b) * (acting.local.height * m / acting.local.width);
+    const Vec2 slope =
+        g.height * h + (g.offset - g.width * b) * (acting.local.height * m / acting.local.width);
     const double l = std::sqrt(1.0 + dot(slope, slope));
     out.normal[0] = -slope.x / l;
     out.normal[1] = -slope.y / l;
     out.normal[2] = 1.0 / l;
 }
 
-// Topmost end of (ground and adds) minus cuts: walks down from the highest end, leaving every cut at its floor.
+// Topmost end of (ground and adds) minus cuts: walks down from the highest end, leaving every cut at its
+// floor.
 SurfacePoint topmost(const Column& column, double ground, std::uint32_t& place) {
     SurfacePoint top;
     top.height = ground;
@@ -202,7 +209,8 @@ SurfacePoint topmost(const Column& column, double ground, std::uint32_t& place) 
     return top;
 }
 
-SurfacePoint find_surface(const Prepared& truth, Vec2 p, std::span<const std::uint32_t> candidates, double ground) {
+SurfacePoint find_surface(const Prepared& truth, Vec2 p, std::span<const std::uint32_t> candidates,
+                          double ground) {
     SurfacePoint out;
     out.height = out.ground = ground;
     if (!truth::inside_map(truth, p)) return out;

@@ -41,8 +41,8 @@ void offer(Foot& best, double parameter, double offset) {
 // Feet on the arc: (B(u) - p) . B'(u) = 0, a cubic. Its derivative's roots split [0, 1] into monotone pieces.
 void offer_arc_feet(const PreparedElement& e, Vec2 p, Foot& best) {
     const Vec2 c = e.p0 - p;
-    const double k[4] = {dot(c, e.edge), dot(c, e.bend) + 2.0 * dot(e.edge, e.edge), 3.0 * dot(e.edge, e.bend),
-                         dot(e.bend, e.bend)};
+    const double k[4] = {dot(c, e.edge), dot(c, e.bend) + 2.0 * dot(e.edge, e.edge),
+                         3.0 * dot(e.edge, e.bend), dot(e.bend, e.bend)};
     double roots[2];
     const int n = solve_quadratic(3.0 * k[3], 2.0 * k[2], k[1], roots);
     double cuts[4] = {0.0, 1.0, 1.0, 1.0};
@@ -112,14 +112,17 @@ Foot find_foot(const PreparedElement& e, Vec2 p) {
         return {dot(p - e.p0, normal_of(e.tangent)), std::clamp(s, 0.0, 1.0)};
     }
     Foot best{1e300, 0.0};
-    if (dot(p - e.p0, e.ends[0].outward) >= 0.0) offer(best, 0.0, dot(p - e.p0, normal_of(-e.ends[0].outward)));
-    if (dot(p - e.p2, e.ends[1].outward) >= 0.0) offer(best, 1.0, dot(p - e.p2, normal_of(e.ends[1].outward)));
+    if (dot(p - e.p0, e.ends[0].outward) >= 0.0)
+        offer(best, 0.0, dot(p - e.p0, normal_of(-e.ends[0].outward)));
+    if (dot(p - e.p2, e.ends[1].outward) >= 0.0)
+        offer(best, 1.0, dot(p - e.p2, normal_of(e.ends[1].outward)));
     offer_arc_feet(e, p, best);
     // Rounding may leave a point on the normal of an end to neither side.
     if (best.offset == 1e300) {
         const int near = length(p - e.p0) <= length(p - e.p2) ? 0 : 1;
         const double side = near == 0 ? -1.0 : 1.0;
-        best = {dot(p - e.ends[near].vertex, normal_of(e.ends[near].outward * side)), static_cast<double>(near)};
+        best = {dot(p - e.ends[near].vertex, normal_of(e.ends[near].outward * side)),
+                static_cast<double>(near)};
     }
     return best;
 }
@@ -159,10 +162,18 @@ Local evaluate_form(const PreparedElement& e, const Form& form, Vec2 p, const Fo
     Local local;
     const PreparedEnd& end = e.ends[form.end];
     switch (form.kind) {
-        case FormKind::across: local.offset = form.sign * dot(p - end.vertex, end.outward); break;
-        case FormKind::radial: local.offset = form.sign * length(p - end.vertex); break;
-        case FormKind::slanted: local.offset = dot(p - end.vertex, end.bevel); break;
-        default: local.offset = foot.offset; break;
+        case FormKind::across:
+            local.offset = form.sign * dot(p - end.vertex, end.outward);
+            break;
+        case FormKind::radial:
+            local.offset = form.sign * length(p - end.vertex);
+            break;
+        case FormKind::slanted:
+            local.offset = dot(p - end.vertex, end.bevel);
+            break;
+        default:
+            local.offset = foot.offset;
+            break;
     }
     local.width = e.width0 + e.width_rise * foot.parameter;
     local.height = e.height0 + e.height_rise * foot.parameter;
@@ -174,10 +185,18 @@ LocalGradient gradient_of(const PreparedElement& e, const Form& form, Vec2 p, co
     const Vec2 t = tangent_on(e, foot.parameter);
     const PreparedEnd& end = e.ends[form.end];
     switch (form.kind) {
-        case FormKind::across: out.offset = end.outward * form.sign; break;
-        case FormKind::radial: out.offset = unit(p - end.vertex) * form.sign; break;
-        case FormKind::slanted: out.offset = end.bevel; break;
-        default: out.offset = normal_of(t); break;
+        case FormKind::across:
+            out.offset = end.outward * form.sign;
+            break;
+        case FormKind::radial:
+            out.offset = unit(p - end.vertex) * form.sign;
+            break;
+        case FormKind::slanted:
+            out.offset = end.bevel;
+            break;
+        default:
+            out.offset = normal_of(t);
+            break;
     }
     if (!e.scaled || foot.parameter <= 0.0 || foot.parameter >= 1.0) return out;
     Vec2 rate{0, 0};  // of the curve parameter
@@ -194,13 +213,15 @@ LocalGradient gradient_of(const PreparedElement& e, const Form& form, Vec2 p, co
     return out;
 }
 
-bool acts_at(const Truth::Prepared& truth, const PreparedElement& e, Vec2 p, double ground, Local& local, Form* form) {
+bool acts_at(const Truth::Prepared& truth, const PreparedElement& e, Vec2 p, double ground, Local& local,
+             Form* form) {
     const Foot foot = find_foot(e, p);
     const Form found = find_form(e, p, foot);
     if (found.kind == FormKind::none) return false;
     local = evaluate_form(e, found, p, foot);
     const PreparedProfile& profile = truth.profiles[e.profile];
-    if (!(local.width > 0.0) || local.offset < profile.low * local.width || local.offset > profile.high * local.width)
+    if (!(local.width > 0.0) || local.offset < profile.low * local.width ||
+        local.offset > profile.high * local.width)
         return false;
     if (form) *form = found;
     const bool left = std::abs(ground - e.left_level) <= truth.level_tolerance;
@@ -237,7 +258,8 @@ bool inside_map(const Truth::Prepared& truth, Vec2 p) {
 
 Vec2 into_tile(const Truth::Prepared& truth, Vec2 p) {
     if (!truth.repeat) return p;
-    return {p.x - truth.size.x * std::floor(p.x / truth.size.x), p.y - truth.size.y * std::floor(p.y / truth.size.y)};
+    return {p.x - truth.size.x * std::floor(p.x / truth.size.x),
+            p.y - truth.size.y * std::floor(p.y / truth.size.y)};
 }
 
 bool solid_at(const Truth::Prepared& truth, Vec2 p, double z, double ground) {

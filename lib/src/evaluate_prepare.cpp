@@ -51,7 +51,8 @@ PreparedEnd prepare_end(const ElementEnd& end, Vec2 vertex, Vec2 along, bool at_
 // How far beyond an end the element can act, for |b'| up to reach.
 double overhang_of(const PreparedEnd& end, double reach) {
     if (end.priority == Priority::none) return 0.0;
-    const bool clipped = end.priority == Priority::both ? end.end == EndShape::clip : end.corner == CornerShape::mitre;
+    const bool clipped =
+        end.priority == Priority::both ? end.end == EndShape::clip : end.corner == CornerShape::mitre;
     if (!clipped) return reach;
     // On the clip line at b = +-reach: a = reach * |clip . outward| / |clip . n|.
     const double along = std::abs(dot(end.clip_inward, normal_of(end.outward)));
@@ -75,7 +76,8 @@ Box box_of(const PreparedElement& e, const Element& source) {
     return box;
 }
 
-PreparedElement prepare_element(const ResolvedElement& resolved, const Style& style, const PreparedProfile& profile) {
+PreparedElement prepare_element(const ResolvedElement& resolved, const Style& style,
+                                const PreparedProfile& profile) {
     const Element& source = resolved.element;
     PreparedElement e;
     e.kind = source.kind;
@@ -121,7 +123,8 @@ void bound_heights(Truth::Prepared& truth) {
 
 }  // namespace
 
-Truth::Truth(const ResolvedPattern& pattern, const TruthOptions& options) : prepared_(std::make_unique<Prepared>()) {
+Truth::Truth(const ResolvedPattern& pattern, const TruthOptions& options)
+    : prepared_(std::make_unique<Prepared>()) {
     assert(pattern.size.x > 0 && pattern.size.y > 0 && pattern.depth > 0);
     Prepared& out = *prepared_;
     out.size = pattern.size;

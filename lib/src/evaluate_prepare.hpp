@@ -1,5 +1,5 @@
-// Internal to lib: a ResolvedPattern made ready for many questions, and the few functions that say where an element
-// acts. evaluate*.cpp and rasterize.cpp include it; nothing else does.
+// Internal to lib: a ResolvedPattern made ready for many questions, and the few functions that say where an
+// element acts. evaluate*.cpp and rasterize.cpp include it; nothing else does.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,8 @@ namespace burin {
 struct PreparedEnd {
     Vec2 vertex;
     Vec2 outward;      // unit tangent pointing away from the element: a = (p - vertex) . outward
-    Vec2 clip_inward;  // unit normal of the clip line towards the element: p is on its side when (p - vertex) . it >= 0
+    Vec2 clip_inward;  // unit normal of the clip line towards the element: p is on its side when (p - vertex)
+                       // . it >= 0
     Vec2 bevel;        // m / (m.n): b' = (p - vertex) . bevel
     Priority priority = Priority::none;
     CornerShape corner = CornerShape::mitre;
@@ -31,9 +32,9 @@ struct PreparedProfile {
 struct PreparedElement {
     ElementKind kind = ElementKind::line;
     Vec2 p0, p2;
-    Vec2 tangent;        // line: unit tangent
-    double length = 0;   // line: p0 to p2
-    Vec2 edge, bend;     // quadratic: B(u) = p0 + 2 u edge + u^2 bend
+    Vec2 tangent;       // line: unit tangent
+    double length = 0;  // line: p0 to p2
+    Vec2 edge, bend;    // quadratic: B(u) = p0 + 2 u edge + u^2 bend
     PreparedEnd ends[2];
     double width0 = 1, width_rise = 0, height0 = 1, height_rise = 0;
     bool scaled = false;  // a scale varies along the element
@@ -48,23 +49,23 @@ struct Truth::Prepared {
     Vec2 size{1, 1};
     bool repeat = true;
     double outer_level = 0, depth = 1, level_tolerance = 0, max_tiles = 0;
-    double lowest = 0, highest = 0;     // bounds of the whole surface
-    std::vector<double> levels;         // every level of ground that occurs
+    double lowest = 0, highest = 0;  // bounds of the whole surface
+    std::vector<double> levels;      // every level of ground that occurs
     std::vector<PreparedElement> elements;
     std::vector<PreparedProfile> profiles;
-    std::vector<std::uint32_t> steps;   // elements that change the ground
-    std::vector<std::uint32_t> all;     // 0, 1, 2, ...
+    std::vector<std::uint32_t> steps;  // elements that change the ground
+    std::vector<std::uint32_t> all;    // 0, 1, 2, ...
 };
 
 namespace truth {
 
 // Which of the rules of resolve.hpp gives b' at a point.
 enum class FormKind : std::uint8_t {
-    none,      // the element does not act
-    plain,     // b' = b
-    across,    // hip: b' = sign * a
-    radial,    // round: b' = sign * |p - vertex|
-    slanted,   // bevel: b' = (p - vertex) . bevel
+    none,     // the element does not act
+    plain,    // b' = b
+    across,   // hip: b' = sign * a
+    radial,   // round: b' = sign * |p - vertex|
+    slanted,  // bevel: b' = (p - vertex) . bevel
 };
 struct Form {
     FormKind kind = FormKind::none;
@@ -97,8 +98,8 @@ LocalGradient gradient_of(const PreparedElement& e, const Form& form, Vec2 p, co
 bool acts_at(const Truth::Prepared& truth, const PreparedElement& e, Vec2 p, double ground, Local& local,
              Form* form = nullptr);
 
-// Calls visit(shift) for each tile image of e whose box holds p or meets the box [low, high]; the image is e moved
-// by shift. Exactly one image, (0, 0), when the pattern does not repeat.
+// Calls visit(shift) for each tile image of e whose box holds p or meets the box [low, high]; the image is e
+// moved by shift. Exactly one image, (0, 0), when the pattern does not repeat.
 template <typename Visit>
 void for_each_image(const Truth::Prepared& truth, const Box& box, Vec2 low, Vec2 high, Visit&& visit) {
     if (!truth.repeat) {
@@ -106,8 +107,10 @@ void for_each_image(const Truth::Prepared& truth, const Box& box, Vec2 low, Vec2
             visit(Vec2{0, 0});
         return;
     }
-    const double x0 = std::ceil((low.x - box.high.x) / truth.size.x), x1 = std::floor((high.x - box.low.x) / truth.size.x);
-    const double y0 = std::ceil((low.y - box.high.y) / truth.size.y), y1 = std::floor((high.y - box.low.y) / truth.size.y);
+    const double x0 = std::ceil((low.x - box.high.x) / truth.size.x),
+                 x1 = std::floor((high.x - box.low.x) / truth.size.x);
+    const double y0 = std::ceil((low.y - box.high.y) / truth.size.y),
+                 y1 = std::floor((high.y - box.low.y) / truth.size.y);
     for (double i = x0; i <= x1; ++i)
         for (double j = y0; j <= y1; ++j) visit(Vec2{i * truth.size.x, j * truth.size.y});
 }
@@ -124,7 +127,8 @@ Vec2 tangent_on(const PreparedElement& e, double u);  // unit
 int meet_line(const PreparedElement& e, Vec2 p, Vec2 d, double u[2]);
 
 // Offset b is b' / width scale; rise is z above the element's level; facets stand at height_scale * h.
-bool in_add(const PreparedProfile& profile, double b, double rise, double height_scale);  // above ground: caller asks
+bool in_add(const PreparedProfile& profile, double b, double rise,
+            double height_scale);  // above ground: caller asks
 bool in_cut(const PreparedProfile& profile, double b, double rise, double height_scale);
 
 bool inside_map(const Truth::Prepared& truth, Vec2 p);

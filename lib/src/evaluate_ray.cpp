@@ -1,8 +1,9 @@
 // First hit of a ray with the solid.
 //
-// Along a ray the solid can only begin or end at an event: where the ray meets a facet's surface, the vertical over a
-// profile point, the border of where an element acts, a step's path line, or a level of ground. All events are
-// gathered, sorted, and the solid is asked half way between neighbours; nothing else is reasoned about.
+// Along a ray the solid can only begin or end at an event: where the ray meets a facet's surface, the
+// vertical over a profile point, the border of where an element acts, a step's path line, or a level of
+// ground. All events are gathered, sorted, and the solid is asked half way between neighbours; nothing else
+// is reasoned about.
 #include <algorithm>
 #include <cassert>
 
@@ -39,8 +40,12 @@ struct State {
 class Tracer {
   public:
     Tracer(const Truth& owner, const Ray& ray)
-        : owner_(owner), truth_(owner.prepared()), origin_{ray.origin[0], ray.origin[1]}, height_(ray.origin[2]),
-          along_{ray.direction[0], ray.direction[1]}, climb_(ray.direction[2]) {
+        : owner_(owner),
+          truth_(owner.prepared()),
+          origin_{ray.origin[0], ray.origin[1]},
+          height_(ray.origin[2]),
+          along_{ray.direction[0], ray.direction[1]},
+          climb_(ray.direction[2]) {
         const double whole = std::sqrt(dot(along_, along_) + climb_ * climb_);
         assert(whole > 0.0);
         whole_ = whole;
@@ -71,8 +76,8 @@ class Tracer {
     Local local_at(const Near& near, const Form& form, double t) const;
     State state_at(double t, double ground) const;
     void describe(double t, double t_before, double t_after, RayHit& hit);
-    void describe_element(const Near& near, double t, bool acted, bool acts, const State& was, const State& is,
-                          RayHit& hit);
+    void describe_element(const Near& near, double t, bool acted, bool acts, const State& was,
+                          const State& is, RayHit& hit);
     bool describe_facet(const Near& near, double t, const Form& form, RayHit& hit) const;
     void describe_wall(const Near& near, double t, const Form& form, RayHit& hit) const;
     bool describe_step_wall(double t, RayHit& hit) const;
@@ -84,9 +89,9 @@ class Tracer {
     double height_;
     Vec2 along_;
     double climb_;
-    double whole_ = 1;    // length of the direction
-    double sliver_ = 0;   // kSliver as a difference of t; far from the origin rounding makes it longer
-    double before_ = 0;   // a little before the ray's origin
+    double whole_ = 1;       // length of the direction
+    double sliver_ = 0;      // kSliver as a difference of t; far from the origin rounding makes it longer
+    double before_ = 0;      // a little before the ray's origin
     double last_empty_ = 0;  // a place of the ray known to be outside of the solid, the latest one
     bool any_empty_ = false;
     std::vector<Near> near_;
@@ -119,7 +124,8 @@ std::vector<double> Tracer::cut_into_chunks(double begin, double end) const {
     std::vector<double> cuts{begin};
     double from = begin, to = end;
     if (!truth_.repeat) {
-        const double o[2] = {origin_.x, origin_.y}, d[2] = {along_.x, along_.y}, size[2] = {truth_.size.x, truth_.size.y};
+        const double o[2] = {origin_.x, origin_.y}, d[2] = {along_.x, along_.y},
+                     size[2] = {truth_.size.x, truth_.size.y};
         for (int i = 0; i < 2; ++i) {
             if (d[i] == 0.0) continue;
             const double u = -o[i] / d[i], v = (size[i] - o[i]) / d[i];
@@ -142,12 +148,14 @@ void Tracer::gather_near(double begin, double end) {
     const Vec2 a = at(begin), b = at(end);
     const Vec2 low{std::min(a.x, b.x), std::min(a.y, b.y)}, high{std::max(a.x, b.x), std::max(a.y, b.y)};
     for (std::uint32_t i = 0; i < truth_.elements.size(); ++i)
-        truth::for_each_image(truth_, truth_.elements[i].box, low, high,
-                              [&](Vec2 shift) { near_.push_back({&truth_.elements[i], i, shift}); });
+        truth::for_each_image(truth_, truth_.elements[i].box, low, high, [&](Vec2 shift) {
+            near_.push_back({&truth_.elements[i], i, shift});
+        });
 }
 
 // Zero of the function that runs straight from `at_begin` to `at_end`.
-void Tracer::add_linear(std::vector<double>& to, double at_begin, double at_end, double begin, double end) const {
+void Tracer::add_linear(std::vector<double>& to, double at_begin, double at_end, double begin,
+                        double end) const {
     if ((at_begin < 0.0) == (at_end < 0.0) && at_begin != 0.0 && at_end != 0.0) return;
     if (at_begin == at_end) return;
     to.push_back(begin + (end - begin) * (at_begin / (at_begin - at_end)));
@@ -173,7 +181,8 @@ void Tracer::gather_events(double begin, double end) {
     events_.clear();
     events_.push_back(begin);
     events_.push_back(end);
-    for (const double level : truth_.levels) add_linear(events_, z_at(begin) - level, z_at(end) - level, begin, end);
+    for (const double level : truth_.levels)
+        add_linear(events_, z_at(begin) - level, z_at(end) - level, begin, end);
     gather_ground_events(begin, end);
     events_.insert(events_.end(), ground_events_.begin(), ground_events_.end());
     for (const Near& near : near_) gather_element_events(near, begin, end);
@@ -189,7 +198,8 @@ void Tracer::gather_breaks(const Near& near, double begin, double end) {
         const double a0 = dot(a - v.vertex, v.outward), a1 = dot(b - v.vertex, v.outward);
         add_linear(breaks_, a0, a1, begin, end);
         if (v.priority != Priority::none)
-            add_linear(breaks_, dot(a - v.vertex, v.clip_inward), dot(b - v.vertex, v.clip_inward), begin, end);
+            add_linear(breaks_, dot(a - v.vertex, v.clip_inward), dot(b - v.vertex, v.clip_inward), begin,
+                       end);
         // The tangent line beyond the end: b = 0 there, and |b| = a for hips.
         const double b0 = cross(v.outward, a - v.vertex), b1 = cross(v.outward, b - v.vertex);
         add_linear(breaks_, b0, b1, begin, end);
@@ -206,7 +216,8 @@ void Tracer::gather_breaks(const Near& near, double begin, double end) {
     gather_hip_breaks(near, begin, end);
 }
 
-// On the inside of a curve the foot may lie on the arc although the point is beyond an end; |b| = a is no line there.
+// On the inside of a curve the foot may lie on the arc although the point is beyond an end; |b| = a is no
+// line there.
 void Tracer::gather_hip_breaks(const Near& near, double begin, double end) {
     for (const PreparedEnd& v : near.element->ends) {
         if (v.priority != Priority::both || v.end != EndShape::hip) continue;
@@ -253,8 +264,8 @@ Local Tracer::local_at(const Near& near, const Form& form, double t) const {
     return truth::evaluate_form(*near.element, form, p, truth::find_foot(*near.element, p));
 }
 
-// Events of one smooth piece: b' over profile points and the facets' surfaces, both multiplied by the width scale so
-// that along a straight element they are polynomials of degree 2 in t at most.
+// Events of one smooth piece: b' over profile points and the facets' surfaces, both multiplied by the width
+// scale so that along a straight element they are polynomials of degree 2 in t at most.
 void Tracer::gather_smooth(const Near& near, const Form& form, double begin, double end) {
     const PreparedElement& e = *near.element;
     const PreparedProfile& profile = truth_.profiles[e.profile];
@@ -264,10 +275,13 @@ void Tracer::gather_smooth(const Near& near, const Form& form, double begin, dou
     double values[kSamples + 1];
     const auto place = [&](int i) { return begin + (end - begin) * i / n; };
     for (int i = 0; i <= n; ++i) locals[i] = local_at(near, form, place(i));
-    const auto over_point = [&](const Local& l, std::size_t k) { return l.offset - profile.points[k].b * l.width; };
+    const auto over_point = [&](const Local& l, std::size_t k) {
+        return l.offset - profile.points[k].b * l.width;
+    };
     const auto over_facet = [&](const Local& l, double t, std::size_t k) {
         const ProfilePoint p = profile.points[k];
-        return (z_at(t) - e.level) * l.width - l.height * (p.h * l.width + profile.slope[k] * (l.offset - p.b * l.width));
+        return (z_at(t) - e.level) * l.width -
+               l.height * (p.h * l.width + profile.slope[k] * (l.offset - p.b * l.width));
     };
     const auto solve = [&](auto&& function) {
         if (!polynomial) return find_roots(values, begin, end, function);
@@ -287,8 +301,8 @@ void Tracer::gather_smooth(const Near& near, const Form& form, double begin, dou
     }
 }
 
-// Zeros of a function sampled at kSamples + 1 places: bisection where the sign changes, and a search for a pair of
-// zeros where the function comes close to zero and turns back.
+// Zeros of a function sampled at kSamples + 1 places: bisection where the sign changes, and a search for a
+// pair of zeros where the function comes close to zero and turns back.
 template <typename Function>
 void Tracer::find_roots(const double* values, double begin, double end, Function&& function) {
     const auto place = [&](int i) { return begin + (end - begin) * i / kSamples; };
@@ -308,7 +322,8 @@ void Tracer::find_roots(const double* values, double begin, double end, Function
     }
     for (int i = 1; i < kSamples; ++i) {
         const double f = std::abs(values[i]), l = std::abs(values[i - 1]), r = std::abs(values[i + 1]);
-        const bool same = (values[i - 1] < 0.0) == (values[i] < 0.0) && (values[i] < 0.0) == (values[i + 1] < 0.0);
+        const bool same =
+            (values[i - 1] < 0.0) == (values[i] < 0.0) && (values[i] < 0.0) == (values[i + 1] < 0.0);
         // A turning point that a parabola keeps well away from zero is not looked at.
         if (!same || f > l || f > r || f > (l - f) + (r - f)) continue;
         double low = place(i - 1), high = place(i + 1);
@@ -363,7 +378,8 @@ bool Tracer::trace_chunk(double begin, double end, RayHit& hit) {
         const double from = std::max(events_[i], begin), to = std::min(events_[i + 1], end);
         if (to - from <= sliver_) continue;
         const double middle = 0.5 * (from + to);
-        for (; passed < ground_events_.size() && ground_events_[passed] < middle; ++passed) ground_known = false;
+        for (; passed < ground_events_.size() && ground_events_[passed] < middle; ++passed)
+            ground_known = false;
         if (!ground_known || !truth_.repeat) ground = owner_.ground_at(at(middle)), ground_known = true;
         if (!state_at(middle, ground).solid()) {
             last_empty_ = middle;
@@ -390,7 +406,8 @@ RayHit Tracer::trace() {
     return hit;
 }
 
-// ---- what was hit --------------------------------------------------------------------------------------------
+// ---- what was hit
+// --------------------------------------------------------------------------------------------
 
 // Length 1, against the ray.
 void Tracer::set_normal(double x, double y, double z, RayHit& hit) const {
@@ -432,8 +449,8 @@ void Tracer::describe(double t, double t_before, double t_after, RayHit& hit) {
     describe_element(near, t, acted, acts, was, is, hit);
 }
 
-void Tracer::describe_element(const Near& near, double t, bool acted, bool acts, const State& was, const State& is,
-                              RayHit& hit) {
+void Tracer::describe_element(const Near& near, double t, bool acted, bool acts, const State& was,
+                              const State& is, RayHit& hit) {
     hit.element = near.index;
     hit.facet = kWall;
     const Vec2 p = at(t) - near.shift;
@@ -466,7 +483,8 @@ bool Tracer::describe_facet(const Near& near, double t, const Form& form, RayHit
     const ProfilePoint a = profile.points[facet], b = profile.points[facet + 1];
     const truth::LocalGradient g = truth::gradient_of(e, form, p, foot);
     // F = (z - level) / H db - h_a db - dh (b' / W - b_a) vanishes on the facet, H and W the scales.
-    const double db = b.b - a.b, dh = b.h - a.h, w = local.width, h = local.height != 0.0 ? local.height : 1.0;
+    const double db = b.b - a.b, dh = b.h - a.h, w = local.width,
+                 h = local.height != 0.0 ? local.height : 1.0;
     const Vec2 slide = (g.offset - g.width * (local.offset / w)) * (1.0 / w);
     const Vec2 plan = slide * -dh - g.height * ((z_at(t) - e.level) / (h * h) * db);
     set_normal(plan.x, plan.y, db / h, hit);
@@ -501,8 +519,8 @@ void Tracer::describe_wall(const Near& near, double t, const Form& form, RayHit&
     set_normal(normal.x, normal.y, 0.0, hit);
 }
 
-// A jump of the ground: the step element whose path line passes through the hit, and the vertical facet of its
-// profile at b = 0 that stands at the hit's height, when there is one.
+// A jump of the ground: the step element whose path line passes through the hit, and the vertical facet of
+// its profile at b = 0 that stands at the hit's height, when there is one.
 bool Tracer::describe_step_wall(double t, RayHit& hit) const {
     double nearest = 1e-9 * std::max(truth_.size.x, truth_.size.y);
     const Near* found = nullptr;

@@ -1,9 +1,9 @@
 // Box-filtered height map of a pattern, asked from the truth's own rules for where elements act.
 //
-// Speed comes from three things, none of which changes the result: buckets of texels list the elements that can act
-// there; the ground of a row of samples comes from its crossings with step path lines; and texels over which the
-// surface is one plane are sampled once. Buckets lie at multiples of kBucket texels of the whole map, so that a region
-// is computed exactly as the same part of the whole.
+// Speed comes from three things, none of which changes the result: buckets of texels list the elements that
+// can act there; the ground of a row of samples comes from its crossings with step path lines; and texels
+// over which the surface is one plane are sampled once. Buckets lie at multiples of kBucket texels of the
+// whole map, so that a region is computed exactly as the same part of the whole.
 #include <burin/rasterize.hpp>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct Entry {
 // What an element does over a whole texel.
 enum class Cover { absent, plane, mixed };
 struct Plane {
-    double middle = 0;     // height at the texel's centre, corrected so that it is the mean
+    double middle = 0;         // height at the texel's centre, corrected so that it is the mean
     double low = 0, high = 0;  // bounds over the texel
     bool internal = false;
 };
@@ -64,7 +64,8 @@ class Rasterizer {
     void fill_row(double y, std::vector<RowCrossing>& crossings, double* levels) const;
 
     Cover cover_of(const Entry& entry, Vec2 centre, double ground, Plane& plane) const;
-    Cover cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground, Plane& plane) const;
+    Cover cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground,
+                          Plane& plane) const;
     bool merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const;
     double sample(const std::vector<Entry>& entries, Vec2 p, double ground) const;
     float value_of(double z) const { return static_cast<float>(1.0 + (z - base_offset_) / truth_.depth); }
@@ -75,18 +76,24 @@ class Rasterizer {
     int width_, height_, samples_, threads_;
     double tolerance_;
     TexelRegion region_;
-    Vec2 texel_;           // metres per texel
-    double radius_;        // half the diagonal of a texel
-    Vec2 spread_;          // mean square distance of the samples from the centre, per axis
+    Vec2 texel_;     // metres per texel
+    double radius_;  // half the diagonal of a texel
+    Vec2 spread_;    // mean square distance of the samples from the centre, per axis
     int first_column_ = 0, last_column_ = 0, first_row_ = 0, last_row_ = 0;
     std::vector<std::vector<Entry>> buckets_;
     std::vector<std::vector<Entry>> step_rows_;  // step path lines over each row of buckets
 };
 
 Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, const RasterizeOptions& options)
-    : owner_(pattern, TruthOptions{.level_tolerance = options.level_tolerance}), truth_(owner_.prepared()),
-      base_offset_(pattern.base_offset), width_(width), height_(height), samples_(options.samples),
-      threads_(options.threads), tolerance_(options.curve_tolerance * pattern.depth), region_(options.region) {
+    : owner_(pattern, TruthOptions{.level_tolerance = options.level_tolerance}),
+      truth_(owner_.prepared()),
+      base_offset_(pattern.base_offset),
+      width_(width),
+      height_(height),
+      samples_(options.samples),
+      threads_(options.threads),
+      tolerance_(options.curve_tolerance * pattern.depth),
+      region_(options.region) {
     assert(width >= 1 && height >= 1 && samples_ >= 1 && samples_ <= 64);
     if (region_.width == 0) region_ = {0, 0, width, height};
     assert(region_.x >= 0 && region_.y >= 0 && region_.height >= 1);
@@ -101,12 +108,14 @@ Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, co
     last_row_ = (region_.y + region_.height - 1) / kBucket;
 }
 
-// ---- buckets -------------------------------------------------------------------------------------------------
+// ---- buckets
+// -------------------------------------------------------------------------------------------------
 
 // False only where the element acts at no point within `radius` of p.
 bool Rasterizer::can_act(const PreparedElement& e, Vec2 p, double radius) const {
     const double slack = radius * (1.0 + 1e-9);
-    if (p.x + slack < e.box.low.x || p.y + slack < e.box.low.y || p.x - slack > e.box.high.x || p.y - slack > e.box.high.y)
+    if (p.x + slack < e.box.low.x || p.y + slack < e.box.low.y || p.x - slack > e.box.high.x ||
+        p.y - slack > e.box.high.y)
         return false;
     for (const PreparedEnd& end : e.ends) {
         const bool stops = end.priority == Priority::none;
@@ -121,13 +130,16 @@ bool Rasterizer::can_act(const PreparedElement& e, Vec2 p, double radius) const 
 void Rasterizer::fill_buckets() {
     const Vec2 side = texel_ * kBucket;
     const double radius = 0.5 * length(side);
-    buckets_.assign(static_cast<std::size_t>(bucket_columns()) * static_cast<std::size_t>(last_row_ - first_row_ + 1), {});
+    buckets_.assign(
+        static_cast<std::size_t>(bucket_columns()) * static_cast<std::size_t>(last_row_ - first_row_ + 1),
+        {});
     const Vec2 low{first_column_ * side.x, first_row_ * side.y};
     const Vec2 high{(last_column_ + 1) * side.x, (last_row_ + 1) * side.y};
     for (const PreparedElement& e : truth_.elements)
         truth::for_each_image(truth_, e.box, low, high, [&](Vec2 shift) {
             const auto cell = [](double x, int first, int last) {
-                return static_cast<int>(std::clamp(std::floor(x), static_cast<double>(first), static_cast<double>(last)));
+                return static_cast<int>(
+                    std::clamp(std::floor(x), static_cast<double>(first), static_cast<double>(last)));
             };
             const int x0 = cell((e.box.low.x + shift.x) / side.x - 1e-6, first_column_, last_column_);
             const int x1 = cell((e.box.high.x + shift.x) / side.x + 1e-6, first_column_, last_column_);
@@ -137,7 +149,8 @@ void Rasterizer::fill_buckets() {
                 for (int x = x0; x <= x1; ++x) {
                     const Vec2 centre{(x + 0.5) * side.x, (y + 0.5) * side.y};
                     if (!can_act(e, centre - shift, radius)) continue;
-                    buckets_[static_cast<std::size_t>(y - first_row_) * static_cast<std::size_t>(bucket_columns()) +
+                    buckets_[static_cast<std::size_t>(y - first_row_) *
+                                 static_cast<std::size_t>(bucket_columns()) +
                              static_cast<std::size_t>(x - first_column_)]
                         .push_back({&e, shift});
                 }
@@ -152,41 +165,47 @@ void Rasterizer::fill_step_rows() {
     for (const std::uint32_t index : truth_.steps) {
         const PreparedElement& e = truth_.elements[index];
         for (int row = first_row_; row <= last_row_; ++row)
-            truth::for_each_image(truth_, e.box, {0.0, row * side}, {truth_.size.x, (row + 1) * side}, [&](Vec2 shift) {
-                step_rows_[static_cast<std::size_t>(row - first_row_)].push_back({&e, shift});
-            });
+            truth::for_each_image(
+                truth_, e.box, {0.0, row * side}, {truth_.size.x, (row + 1) * side}, [&](Vec2 shift) {
+                    step_rows_[static_cast<std::size_t>(row - first_row_)].push_back({&e, shift});
+                });
     }
 }
 
-// ---- ground of a row -----------------------------------------------------------------------------------------
+// ---- ground of a row
+// -----------------------------------------------------------------------------------------
 
-// Pieces of the path line that are monotone in y, each open at its lower end: touching vertices count twice or not.
+// Pieces of the path line that are monotone in y, each open at its lower end: touching vertices count twice
+// or not.
 void Rasterizer::cross_row(const Entry& entry, double y, std::vector<RowCrossing>& crossings) const {
     const PreparedElement& e = *entry.element;
     const double bend = e.bend.y, edge = e.edge.y, start = e.p0.y + entry.shift.y;
     double cuts[3] = {0.0, 1.0, 1.0};
-    if (e.kind == ElementKind::quadratic && bend != 0.0 && -edge / bend > 0.0 && -edge / bend < 1.0) cuts[1] = -edge / bend;
+    if (e.kind == ElementKind::quadratic && bend != 0.0 && -edge / bend > 0.0 && -edge / bend < 1.0)
+        cuts[1] = -edge / bend;
     const auto place = [&](double u) { return truth::point_on(e, u) + entry.shift; };
     for (int i = 0; i < 2 && cuts[i] < 1.0; ++i) {
         double low = cuts[i], high = cuts[i + 1];
         if ((place(low).y <= y) == (place(high).y <= y)) continue;
         double roots[2];
-        const int n = e.kind == ElementKind::line ? truth::solve_quadratic(0.0, e.p2.y - e.p0.y, start - y, roots)
-                                                  : truth::solve_quadratic(bend, 2.0 * edge, start - y, roots);
+        const int n = e.kind == ElementKind::line
+                          ? truth::solve_quadratic(0.0, e.p2.y - e.p0.y, start - y, roots)
+                          : truth::solve_quadratic(bend, 2.0 * edge, start - y, roots);
         double u = 0.5 * (low + high), miss = 1e300;
         for (int k = 0; k < n; ++k) {
             const double outside = std::max({0.0, low - roots[k], roots[k] - high});
             if (outside < miss) miss = outside, u = std::clamp(roots[k], low, high);
         }
-        // Beyond the crossing, in x, lies the side that n points to when n.x > 0. The whole piece rises or falls in
-        // y, so its ends say which.
+        // Beyond the crossing, in x, lies the side that n points to when n.x > 0. The whole piece rises or
+        // falls in y, so its ends say which.
         const bool right_after = place(high).y < place(low).y;
         crossings.push_back({place(u).x, right_after ? e.left_level : e.right_level,
                              right_after ? e.right_level : e.left_level});
     }
 }
 
-// Levels at the samples of one row. Where neighbouring crossings do not agree (they touch) the truth is asked.
+// Levels at the samples of one row. Where neighbouring crossings do not agree (they touch) the truth is
+// asked.
 void Rasterizer::fill_row(double y, std::vector<RowCrossing>& crossings, double* levels) const {
     std::erase_if(crossings, [&](const RowCrossing& c) { return c.x < 0.0 || c.x > truth_.size.x; });
     std::sort(crossings.begin(), crossings.end(), [](const RowCrossing& a, const RowCrossing& b) {
@@ -197,8 +216,11 @@ void Rasterizer::fill_row(double y, std::vector<RowCrossing>& crossings, double*
     int at = 0;
     for (std::size_t i = 0; i <= crossings.size() && at < count; ++i) {
         const bool open_start = i == 0, open_end = i == crossings.size();
-        const double from = open_start ? 0.0 : crossings[i - 1].x, to = open_end ? truth_.size.x : crossings[i].x;
-        int end = open_end ? count : static_cast<int>(std::ceil(std::clamp(to / pitch - 0.5 - first, 0.0, 1.0 * count)));
+        const double from = open_start ? 0.0 : crossings[i - 1].x,
+                     to = open_end ? truth_.size.x : crossings[i].x;
+        int end = open_end
+                      ? count
+                      : static_cast<int>(std::ceil(std::clamp(to / pitch - 0.5 - first, 0.0, 1.0 * count)));
         if (end <= at) continue;
         double level = open_start ? truth_.outer_level : crossings[i - 1].after;
         const bool tie = i > 1 && from - crossings[i - 2].x < 1e-9 * truth_.size.x;
@@ -229,7 +251,8 @@ void Rasterizer::find_levels(int y, std::vector<double>& levels) const {
     }
 }
 
-// ---- one texel -----------------------------------------------------------------------------------------------
+// ---- one texel
+// -----------------------------------------------------------------------------------------------
 
 // With b' = b over the whole texel: which facets it meets, and how much a curve bends the plane.
 Cover Rasterizer::cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground,
@@ -256,7 +279,8 @@ Cover Rasterizer::cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& 
     for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
         if (low < profile.points[i].b || high > profile.points[i + 1].b) continue;
         const double slope = height * profile.slope[i] / width;
-        const double h = height * (profile.points[i].h + profile.slope[i] * (foot.offset / width - profile.points[i].b));
+        const double h =
+            height * (profile.points[i].h + profile.slope[i] * (foot.offset / width - profile.points[i].b));
         const double correction = 0.5 * slope * bend * (t.x * t.x * spread_.x + t.y * t.y * spread_.y);
         if (correction != 0.0 && !(std::abs(correction * bend) * radius_ < tolerance_)) return Cover::mixed;
         plane.middle = e.level + h + correction;
@@ -293,16 +317,21 @@ Cover Rasterizer::cover_of(const Entry& entry, Vec2 centre, double ground, Plane
 bool Rasterizer::merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const {
     Plane base{ground, ground, ground, false};
     for (const Plane& plane : planes) {  // highest base
-        if (plane.low >= base.high) base = plane;
-        else if (plane.high > base.low) return false;
+        if (plane.low >= base.high)
+            base = plane;
+        else if (plane.high > base.low)
+            return false;
     }
     Plane cut{1e300, 1e300, 1e300, true};
     for (const Plane& plane : planes) {  // lowest cut
         if (!plane.internal) continue;
-        if (plane.high <= cut.low) cut = plane;
-        else if (plane.low < cut.high) return false;
+        if (plane.high <= cut.low)
+            cut = plane;
+        else if (plane.low < cut.high)
+            return false;
     }
-    if (cut.low < base.high && cut.high > base.low && !(cut.middle == base.middle && cut.low == base.low)) return false;
+    if (cut.low < base.high && cut.high > base.low && !(cut.middle == base.middle && cut.low == base.low))
+        return false;
     mean = std::min(base.middle, cut.middle);
     return true;
 }
@@ -317,7 +346,8 @@ double Rasterizer::sample(const std::vector<Entry>& entries, Vec2 p, double grou
         const double b = local.offset / local.width;
         for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
             if (!(profile.points[i].b <= b && b < profile.points[i + 1].b)) continue;
-            const double z = e.level + local.height * (profile.points[i].h + profile.slope[i] * (b - profile.points[i].b));
+            const double z =
+                e.level + local.height * (profile.points[i].h + profile.slope[i] * (b - profile.points[i].b));
             base = std::max(base, z);
             if ((profile.internal_mask >> i) & 1u) cut = std::min(cut, z);
             break;
@@ -326,7 +356,8 @@ double Rasterizer::sample(const std::vector<Entry>& entries, Vec2 p, double grou
     return std::min(base, cut);
 }
 
-float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket, const std::vector<double>& levels) const {
+float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket,
+                             const std::vector<double>& levels) const {
     const std::size_t row = static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(samples_);
     const std::size_t first = static_cast<std::size_t>(x - region_.x) * static_cast<std::size_t>(samples_);
     const std::size_t n = static_cast<std::size_t>(samples_);
@@ -335,7 +366,8 @@ float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket, con
     };
     const double ground = level_of(0, 0);
     bool uniform = true;
-    for (std::size_t k = 0; k < n * n && uniform && !levels.empty(); ++k) uniform = level_of(k % n, k / n) == ground;
+    for (std::size_t k = 0; k < n * n && uniform && !levels.empty(); ++k)
+        uniform = level_of(k % n, k / n) == ground;
     if (uniform && bucket.empty()) return value_of(ground);
 
     const Vec2 centre = texel_centre(x, y);
@@ -367,18 +399,20 @@ float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket, con
         const std::size_t i = k % n, j = k / n;
         const Vec2 p{(x + (static_cast<double>(i) + 0.5) / samples_) * texel_.x,
                      (y + (static_cast<double>(j) + 0.5) / samples_) * texel_.y};
-        sum += height_field ? sample(entries, p, level_of(i, j)) : owner_.surface_at(p, candidates, level_of(i, j)).height;
+        sum += height_field ? sample(entries, p, level_of(i, j))
+                            : owner_.surface_at(p, candidates, level_of(i, j)).height;
     }
     return value_of(sum / static_cast<double>(n * n));
 }
 
-// ---- the map -------------------------------------------------------------------------------------------------
+// ---- the map
+// -------------------------------------------------------------------------------------------------
 
 void Rasterizer::draw_texel_row(int y, Image& image) const {
     thread_local std::vector<double> levels;
     find_levels(y, levels);
-    const std::vector<Entry>* row =
-        &buckets_[static_cast<std::size_t>(y / kBucket - first_row_) * static_cast<std::size_t>(bucket_columns())];
+    const std::vector<Entry>* row = &buckets_[static_cast<std::size_t>(y / kBucket - first_row_) *
+                                              static_cast<std::size_t>(bucket_columns())];
     for (int x = region_.x; x < region_.x + region_.width; ++x)
         image.at(x - region_.x, y - region_.y) = draw_texel(x, y, row[x / kBucket - first_column_], levels);
 }
@@ -408,7 +442,8 @@ Image Rasterizer::run() {
 
 }  // namespace
 
-Image rasterize_height(const ResolvedPattern& pattern, int width, int height, const RasterizeOptions& options) {
+Image rasterize_height(const ResolvedPattern& pattern, int width, int height,
+                       const RasterizeOptions& options) {
     return Rasterizer(pattern, width, height, options).run();
 }
 

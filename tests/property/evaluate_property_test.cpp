@@ -1,4 +1,5 @@
-// The truth against itself by other ways: rays against heights, hits against dense sampling, maps against averages.
+// The truth against itself by other ways: rays against heights, hits against dense sampling, maps against
+// averages.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,11 +45,13 @@ TEST_P(EveryPattern, RayStraightDownMeetsTheSurface) {
         const RayHit hit = truth.trace_ray(ray_through(p, 0.01, 0, 0, -2));
         const SurfacePoint surface = truth.surface_at(p);
         ASSERT_TRUE(hit.hit && !hit.inside) << "seed " << seed() << " at " << p.x << ' ' << p.y;
-        ASSERT_NEAR(hit.position[2], surface.height, 1e-12) << "seed " << seed() << " at " << p.x << ' ' << p.y;
+        ASSERT_NEAR(hit.position[2], surface.height, 1e-12)
+            << "seed " << seed() << " at " << p.x << ' ' << p.y;
         if (hit.element != surface.element || hit.facet != surface.facet) continue;
         ++same;
         for (int k = 0; k < 3; ++k)
-            ASSERT_NEAR(hit.normal[k], surface.normal[k], 1e-6) << "seed " << seed() << " at " << p.x << ' ' << p.y;
+            ASSERT_NEAR(hit.normal[k], surface.normal[k], 1e-6)
+                << "seed " << seed() << " at " << p.x << ' ' << p.y;
     }
     // Where two surfaces coincide either may be named.
     EXPECT_GE(same, kRays * 98 / 100) << "seed " << seed();
@@ -68,11 +71,15 @@ TEST_P(EveryPattern, SlantedRayStopsAtTheFirstSolid) {
         constexpr int kSteps = 150;
         for (int k = 0; k < kSteps; ++k) {
             const double t = hit.t * (k + 0.5) / kSteps;
-            ASSERT_FALSE(truth.is_solid(at(t), z_at(t))) << "seed " << seed() << " ray " << i << " at " << t << " of " << hit.t;
+            ASSERT_FALSE(truth.is_solid(at(t), z_at(t)))
+                << "seed " << seed() << " ray " << i << " at " << t << " of " << hit.t;
         }
-        EXPECT_FALSE(truth.is_solid(at(hit.t - 1e-9), z_at(hit.t - 1e-9))) << "seed " << seed() << " ray " << i;
-        EXPECT_TRUE(truth.is_solid(at(hit.t + 1e-9), z_at(hit.t + 1e-9))) << "seed " << seed() << " ray " << i;
-        const double against = hit.normal[0] * ray.direction[0] + hit.normal[1] * ray.direction[1] + hit.normal[2] * ray.direction[2];
+        EXPECT_FALSE(truth.is_solid(at(hit.t - 1e-9), z_at(hit.t - 1e-9)))
+            << "seed " << seed() << " ray " << i;
+        EXPECT_TRUE(truth.is_solid(at(hit.t + 1e-9), z_at(hit.t + 1e-9)))
+            << "seed " << seed() << " ray " << i;
+        const double against = hit.normal[0] * ray.direction[0] + hit.normal[1] * ray.direction[1] +
+                               hit.normal[2] * ray.direction[2];
         EXPECT_LE(against, 1e-12) << "seed " << seed() << " ray " << i;
     }
 }
@@ -92,7 +99,8 @@ TEST_P(EveryPattern, RaysUpAndLevelStopAtTheFirstSolid) {
         const double end = hit.hit ? std::min(hit.t, 3.0) : 3.0;
         for (int k = 0; k < 300; ++k) {
             const double t = end * (k + 0.5) / 300;
-            ASSERT_FALSE(truth.is_solid(p + d * t, z + climb * t)) << "seed " << seed() << " ray " << i << " at " << t;
+            ASSERT_FALSE(truth.is_solid(p + d * t, z + climb * t))
+                << "seed " << seed() << " ray " << i << " at " << t;
         }
         if (!hit.hit) continue;
         EXPECT_TRUE(truth.is_solid(p + d * (hit.t + 1e-9), z + climb * (hit.t + 1e-9)))
@@ -106,10 +114,12 @@ TEST_P(EveryPattern, SurfaceIsTheTopOfTheSolid) {
     for (int i = 0; i < 1000; ++i) {
         const Vec2 p = any_point(random);
         const SurfacePoint surface = truth.surface_at(p);
-        EXPECT_TRUE(truth.is_solid(p, surface.height - 1e-10)) << "seed " << seed() << " at " << p.x << ' ' << p.y;
+        EXPECT_TRUE(truth.is_solid(p, surface.height - 1e-10))
+            << "seed " << seed() << " at " << p.x << ' ' << p.y;
         for (int k = 0; k < 20; ++k) {
             const double z = surface.height + 1e-10 + 0.006 * k / 20;
-            ASSERT_FALSE(truth.is_solid(p, z)) << "seed " << seed() << " at " << p.x << ' ' << p.y << " z " << z;
+            ASSERT_FALSE(truth.is_solid(p, z))
+                << "seed " << seed() << " at " << p.x << ' ' << p.y << " z " << z;
         }
         if (wrap() == Wrap::clamp) continue;
         const SurfacePoint moved = truth.surface_at(p + Vec2{3.0, -2.0});
@@ -119,7 +129,8 @@ TEST_P(EveryPattern, SurfaceIsTheTopOfTheSolid) {
 
 // H = min(max(ground, adds), cuts), written here once more from each element asked alone.
 TEST_P(EveryPattern, HeightsCombineByMinAndMax) {
-    const ResolvedPattern whole = testing::random_resolved(seed(), false, wrap());  // a formula for height fields
+    const ResolvedPattern whole =
+        testing::random_resolved(seed(), false, wrap());  // a formula for height fields
     const Truth truth(whole);
     Random random(seed() + 4);
     for (int i = 0; i < 500; ++i) {
@@ -128,12 +139,15 @@ TEST_P(EveryPattern, HeightsCombineByMinAndMax) {
         for (std::uint32_t e = 0; e < whole.elements.size(); ++e) {
             const SurfacePoint alone = truth.surface_at(p, std::span(&e, 1));
             if (alone.element == kGround) continue;
-            const std::uint32_t mask = whole.profiles[whole.styles[whole.elements[e].style].profile].internal_mask;
+            const std::uint32_t mask =
+                whole.profiles[whole.styles[whole.elements[e].style].profile].internal_mask;
             base = std::max(base, alone.height);
             if ((mask >> alone.facet) & 1u) cut = std::min(cut, alone.height);
         }
-        // An element alone whose cut lies above its add is named with its add, which then is the lower of the two.
-        EXPECT_NEAR(truth.surface_at(p).height, std::min(base, cut), 1e-12) << "seed " << seed() << " at " << p.x << ' ' << p.y;
+        // An element alone whose cut lies above its add is named with its add, which then is the lower of the
+        // two.
+        EXPECT_NEAR(truth.surface_at(p).height, std::min(base, cut), 1e-12)
+            << "seed " << seed() << " at " << p.x << ' ' << p.y;
     }
 }
 
@@ -167,7 +181,8 @@ TEST_P(EveryPattern, MapDependsOnNeitherThreadsNorRegion) {
         const Image part = rasterize_height(whole, 150, 131, {.region = region});
         for (int y = 0; y < region.height; ++y)
             for (int x = 0; x < region.width; ++x)
-                ASSERT_EQ(part.at(x, y), one.at(region.x + x, region.y + y)) << "seed " << seed() << " texel " << x << ' ' << y;
+                ASSERT_EQ(part.at(x, y), one.at(region.x + x, region.y + y))
+                    << "seed " << seed() << " texel " << x << ' ' << y;
     }
 }
 

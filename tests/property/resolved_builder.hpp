@@ -1,4 +1,5 @@
-// ResolvedPatterns made directly, without resolve: for tests of the truth and of all that reads resolved patterns.
+// ResolvedPatterns made directly, without resolve: for tests of the truth and of all that reads resolved
+// patterns.
 #pragma once
 
 #include <cmath>
@@ -80,7 +81,8 @@ class ResolvedBuilder {
     }
 
     // Closed polygon of lines with mitred corners, in the order given.
-    void polygon(const std::vector<Vec2>& points, std::uint32_t style, CornerShape shape = CornerShape::mitre) {
+    void polygon(const std::vector<Vec2>& points, std::uint32_t style,
+                 CornerShape shape = CornerShape::mitre) {
         const std::size_t n = points.size();
         const auto direction = [&](std::size_t i) { return points[(i + 1) % n] - points[i % n]; };
         const auto corner = [&](std::size_t i) {
@@ -106,8 +108,9 @@ class ResolvedBuilder {
     ResolvedPattern pattern;
 };
 
-// Elements with every kind of end at random places, levels of nested step loops, scales, profiles of every kind;
-// with `overhangs` also profiles that are no height fields. Ends need not fit together: the meaning is pointwise.
+// Elements with every kind of end at random places, levels of nested step loops, scales, profiles of every
+// kind; with `overhangs` also profiles that are no height fields. Ends need not fit together: the meaning is
+// pointwise.
 inline ResolvedPattern random_resolved(std::uint64_t seed, bool overhangs, Wrap wrap = Wrap::repeat) {
     Random random(seed);
     ResolvedBuilder builder;
@@ -125,8 +128,15 @@ inline ResolvedPattern random_resolved(std::uint64_t seed, bool overhangs, Wrap 
         profiles.push_back(builder.profile(  // dovetail groove
             {{-0.4 * w, 0}, {-w, -0.002}, {w, -0.002}, {0.4 * w, 0}}, 7u));
         profiles.push_back(builder.profile(  // mushroom
-            {{-0.3 * w, 0}, {-0.3 * w, 0.0006}, {-w, 0.0006}, {-w, 0.001}, {w, 0.001}, {w, 0.0006}, {0.3 * w, 0.0006},
-             {0.3 * w, 0}}, 0u));
+            {{-0.3 * w, 0},
+             {-0.3 * w, 0.0006},
+             {-w, 0.0006},
+             {-w, 0.001},
+             {w, 0.001},
+             {w, 0.0006},
+             {0.3 * w, 0.0006},
+             {0.3 * w, 0}},
+            0u));
     }
     // Two disjoint loops, one with a loop within.
     const double rises[] = {0.0007, -0.001};
@@ -155,13 +165,18 @@ inline ResolvedPattern random_resolved(std::uint64_t seed, bool overhangs, Wrap 
     const auto any_end = [&](Vec2 t) {
         const double normal = std::atan2(t.x, -t.y);
         switch (random.below(6)) {
-            case 0: return butt_end();
-            case 1: return hip_end();
-            case 2: return round_end();
-            case 3: return clip_end(normal + random.between(-1.0, 1.0));
+            case 0:
+                return butt_end();
+            case 1:
+                return hip_end();
+            case 2:
+                return round_end();
+            case 3:
+                return clip_end(normal + random.between(-1.0, 1.0));
             default:
                 return corner_end(random.chance(0.5) ? Priority::left : Priority::right,
-                                  static_cast<CornerShape>(random.below(3)), normal + random.between(-1.0, 1.0));
+                                  static_cast<CornerShape>(random.below(3)),
+                                  normal + random.between(-1.0, 1.0));
         }
     };
     const int count = 6 + random.below(14);
@@ -170,15 +185,20 @@ inline ResolvedPattern random_resolved(std::uint64_t seed, bool overhangs, Wrap 
         const double reach = random.between(0.03, 0.2);
         const Vec2 b = a + t * reach;
         Element e = make_line(a, b);
-        if (random.chance(0.4)) e = make_arc(a, lerp(a, b, random.between(0.3, 0.7)) + normal_of(t) * (reach * random.between(-0.4, 0.4)), b);
+        if (random.chance(0.4))
+            e = make_arc(
+                a, lerp(a, b, random.between(0.3, 0.7)) + normal_of(t) * (reach * random.between(-0.4, 0.4)),
+                b);
         if (random.chance(0.3)) {
             e.width0 = random.between(0.3, 1.3), e.width1 = random.between(0.0, 1.3);
             e.height0 = random.between(0.3, 1.0), e.height1 = random.between(0.0, 1.0);
         }
         const bool curved = e.kind == ElementKind::quadratic;
-        const std::uint32_t which = profiles[static_cast<std::size_t>(random.below(static_cast<int>(profiles.size())))];
+        const std::uint32_t which =
+            profiles[static_cast<std::size_t>(random.below(static_cast<int>(profiles.size())))];
         const double level = levels[static_cast<std::size_t>(random.below(static_cast<int>(levels.size())))];
-        builder.add(e, any_end(curved ? e.p1 - a : t), any_end(curved ? b - e.p1 : t), builder.style(which, level));
+        builder.add(e, any_end(curved ? e.p1 - a : t), any_end(curved ? b - e.p1 : t),
+                    builder.style(which, level));
     }
     return builder.pattern;
 }

@@ -24,7 +24,9 @@ double groove_at(double b) {
 
 class Surface : public ::testing::Test {
   protected:
-    std::uint32_t groove_style(double level = 0.0) { return builder.style(builder.groove(0.05, 0.02, 0.003), level); }
+    std::uint32_t groove_style(double level = 0.0) {
+        return builder.style(builder.groove(0.05, 0.02, 0.003), level);
+    }
     void expect_height(Vec2 p, double height) const {
         EXPECT_NEAR(surface_at(builder.pattern, p).height, height, 1e-12) << "at " << p.x << ' ' << p.y;
     }
@@ -35,7 +37,8 @@ class Surface : public ::testing::Test {
         for (int i = 0; i <= 40; ++i)
             for (int j = 0; j <= 40; ++j) {
                 const Vec2 d{half * (i / 20.0 - 1.0) + 1.3e-5, half * (j / 20.0 - 1.0) + 0.7e-5};
-                EXPECT_NEAR(truth.surface_at(centre + d).height, height(d), 1e-12) << "at offset " << d.x << ' ' << d.y;
+                EXPECT_NEAR(truth.surface_at(centre + d).height, height(d), 1e-12)
+                    << "at offset " << d.x << ' ' << d.y;
             }
     }
     ResolvedBuilder builder;
@@ -81,18 +84,19 @@ TEST_F(Surface, CrossingRidgesHigherWinsAndGrooveCutsBoth) {
     const auto roof = [](double b) { return std::max(0.0, 0.002 * (1.0 - std::abs(b) / 0.05)); };
     expect_everywhere({0.5, 0.5}, 0.08, [&](Vec2 d) { return std::max(roof(d.x), roof(d.y)); });
     builder.add(make_line({0.25, 0.35}, {0.25, 0.65}), butt_end(), butt_end(), groove_style());
-    expect_everywhere({0.25, 0.5}, 0.04, [&](Vec2 d) {
-        return std::abs(d.x) < 0.05 ? groove_at(d.x) : roof(d.y);
-    });
+    expect_everywhere({0.25, 0.5}, 0.04,
+                      [&](Vec2 d) { return std::abs(d.x) < 0.05 ? groove_at(d.x) : roof(d.y); });
 }
 
 TEST_F(Surface, RimsAddAndTheirGrooveCuts) {
-    const std::uint32_t rims = builder.profile({{-0.06, 0}, {-0.05, 0.001}, {0, -0.002}, {0.05, 0.001}, {0.06, 0}}, 6u);
+    const std::uint32_t rims =
+        builder.profile({{-0.06, 0}, {-0.05, 0.001}, {0, -0.002}, {0.05, 0.001}, {0.06, 0}}, 6u);
     builder.add(make_line({0.2, 0.5}, {0.8, 0.5}), butt_end(), butt_end(), builder.style(rims));
-    builder.add(make_line({0.5, 0.2}, {0.5, 0.8}), butt_end(), butt_end(), builder.style(builder.ridge(0.05, 0.002)));
+    builder.add(make_line({0.5, 0.2}, {0.5, 0.8}), butt_end(), butt_end(),
+                builder.style(builder.ridge(0.05, 0.002)));
     expect_height({0.3, 0.55}, 0.001);
-    expect_height({0.5, 0.5}, -0.002);             // the ridge does not fill the groove
-    expect_height({0.5, 0.5 + 0.055}, 0.002);      // but it covers the rim
+    expect_height({0.5, 0.5}, -0.002);         // the ridge does not fill the groove
+    expect_height({0.5, 0.5 + 0.055}, 0.002);  // but it covers the rim
     expect_height({0.5, 0.5 + 0.04}, -0.002 + 0.003 * 0.8);
 }
 
@@ -103,7 +107,8 @@ TEST_F(Surface, EndsButtHipRound) {
     builder.add(make_line({0.2, 0.8}, {0.5, 0.8}), round_end(), round_end(), style);
     const auto beyond = [](Vec2 d) { return std::max(d.x, 0.0); };
     expect_everywhere({0.5, 0.2}, 0.07, [](Vec2 d) { return d.x > 0 ? 0.0 : groove_at(d.y); });
-    expect_everywhere({0.5, 0.5}, 0.07, [&](Vec2 d) { return groove_at(std::max(std::abs(d.y), beyond(d))); });
+    expect_everywhere({0.5, 0.5}, 0.07,
+                      [&](Vec2 d) { return groove_at(std::max(std::abs(d.y), beyond(d))); });
     expect_everywhere({0.5, 0.8}, 0.07, [&](Vec2 d) { return groove_at(std::hypot(d.y, beyond(d))); });
     expect_everywhere({0.2, 0.8}, 0.07, [&](Vec2 d) { return groove_at(std::hypot(d.y, beyond(-d))); });
 }
@@ -111,8 +116,8 @@ TEST_F(Surface, EndsButtHipRound) {
 TEST_F(Surface, HipKeepsTheSides) {
     const std::uint32_t lopsided = builder.profile({{-0.05, 0}, {-0.04, -0.002}, {0.05, 0}}, 3u);
     builder.add(make_line({0.2, 0.5}, {0.5, 0.5}), butt_end(), hip_end(), builder.style(lopsided));
-    expect_height({0.54, 0.49}, -0.002);         // left half across the end
-    expect_height({0.54, 0.51}, -0.002 / 9.0);   // right half
+    expect_height({0.54, 0.49}, -0.002);        // left half across the end
+    expect_height({0.54, 0.51}, -0.002 / 9.0);  // right half
 }
 
 // A right turn at (0.5, 0.5): east, then south (v down). The outer sector is the north-east.
@@ -133,12 +138,14 @@ class Corner : public Surface {
 
 TEST_F(Corner, MitreTakesTheLargerOffset) {
     bend(CornerShape::mitre);
-    expect_everywhere({0.5, 0.5}, 0.07, [](Vec2 d) { return outer(d) ? groove_at(std::max(d.x, -d.y)) : arms(d); });
+    expect_everywhere({0.5, 0.5}, 0.07,
+                      [](Vec2 d) { return outer(d) ? groove_at(std::max(d.x, -d.y)) : arms(d); });
 }
 
 TEST_F(Corner, RoundTakesTheDistance) {
     bend(CornerShape::round);
-    expect_everywhere({0.5, 0.5}, 0.07, [](Vec2 d) { return outer(d) ? groove_at(std::hypot(d.x, d.y)) : arms(d); });
+    expect_everywhere({0.5, 0.5}, 0.07,
+                      [](Vec2 d) { return outer(d) ? groove_at(std::hypot(d.x, d.y)) : arms(d); });
 }
 
 TEST_F(Corner, BevelIsStraightAcross) {
@@ -158,8 +165,8 @@ TEST_F(Surface, IntersectedEndStopsAtThePathLine) {
 }
 
 TEST_F(Surface, LeaningEndIsClippedOnItsLine) {
-    // Clip line through (0.5, 0.5) at 45 degrees; the element lies to the west of it, and reaches beyond its end
-    // on one side.
+    // Clip line through (0.5, 0.5) at 45 degrees; the element lies to the west of it, and reaches beyond its
+    // end on one side.
     builder.add(make_line({0.2, 0.5}, {0.5, 0.5}), butt_end(), clip_end(kPi / 4), groove_style());
     expect_everywhere({0.5, 0.5}, 0.07, [](Vec2 d) { return d.x < d.y ? groove_at(d.y) : 0.0; });
 }
@@ -170,7 +177,8 @@ TEST_F(Surface, ScalesRunAlongTheElement) {
     e.height0 = 0.25, e.height1 = 1.0;
     builder.add(e, butt_end(), hip_end(), groove_style());
     const double width = 0.75, height = 0.625;  // half way
-    for (const double b : {-0.03, 0.01, 0.02, 0.034}) expect_height({0.4, 0.5 + b}, height * groove_at(b / width));
+    for (const double b : {-0.03, 0.01, 0.02, 0.034})
+        expect_height({0.4, 0.5 + b}, height * groove_at(b / width));
     expect_height({0.61, 0.5}, groove_at(0.01 / 0.5));  // end values beyond the end
     expect_height({0.6201, 0.5}, groove_at(0.0201 / 0.5));
 }
@@ -188,7 +196,8 @@ TEST_F(Surface, ArcMeasuresFromItsNearestPoint) {
         }
     // Beyond the end its tangent goes on; the cap rounds it.
     const Vec2 t = unit(Vec2{1.0, 1.0});
-    EXPECT_NEAR(truth.surface_at(Vec2{0.7, 0.5} + t * 0.03 + normal_of(t) * 0.01).offset, std::hypot(0.03, 0.01), 1e-13);
+    EXPECT_NEAR(truth.surface_at(Vec2{0.7, 0.5} + t * 0.03 + normal_of(t) * 0.01).offset,
+                std::hypot(0.03, 0.01), 1e-13);
 }
 
 TEST_F(Surface, StepAddsBelowAndCutsAbove) {
@@ -198,7 +207,8 @@ TEST_F(Surface, StepAddsBelowAndCutsAbove) {
     EXPECT_EQ(ground_at(builder.pattern, {0.5, 0.5}), 0.001);
     EXPECT_EQ(ground_at(builder.pattern, {0.1, 0.1}), 0.0);
     EXPECT_EQ(ground_at(builder.pattern, {1.5, -0.5}), 0.001);  // another tile
-    expect_everywhere({0.3, 0.5}, 0.07, [](Vec2 d) { return 0.001 * std::clamp((d.x + 0.04) / 0.08, 0.0, 1.0); });
+    expect_everywhere({0.3, 0.5}, 0.07,
+                      [](Vec2 d) { return 0.001 * std::clamp((d.x + 0.04) / 0.08, 0.0, 1.0); });
     // Outer corner mitred: the roof of two bevels.
     expect_height({0.28, 0.27}, 0.001 * 0.01 / 0.08);
 }
@@ -217,24 +227,25 @@ TEST_F(Surface, StepWallIsHitFromTheSide) {
 }
 
 TEST_F(Surface, RegionsNestAndFeaturesKeepTheirLevel) {
-    const std::uint32_t up = builder.profile({{0, 0}, {0, 0.001}}, 0u), down = builder.profile({{0, 0}, {0, -0.002}}, 0u);
+    const std::uint32_t up = builder.profile({{0, 0}, {0, 0.001}}, 0u),
+                        down = builder.profile({{0, 0}, {0, -0.002}}, 0u);
     builder.circle({0.5, 0.5}, 0.3, 8, 1, builder.style(up, 0.0, true));
     builder.circle({0.5, 0.5}, 0.1, 8, 1, builder.style(down, 0.001, true));
     builder.add(make_line({0.05, 0.5}, {0.95, 0.5}), butt_end(), butt_end(), groove_style(0.001));
-    expect_height({0.5, 0.5}, -0.001);                 // in the pit: not the groove's region
+    expect_height({0.5, 0.5}, -0.001);  // in the pit: not the groove's region
     expect_height({0.5, 0.3}, 0.001);
     expect_height({0.7, 0.5}, 0.001 - 0.003);
     expect_height({0.7, 0.54}, 0.001 + groove_at(0.04));
-    expect_height({0.1, 0.5}, 0.0);                    // outside
+    expect_height({0.1, 0.5}, 0.0);  // outside
 }
 
 TEST_F(Surface, GroundBesideStepsFromBorderToBorder) {
     builder.pattern.wrap = Wrap::clamp;
     const std::uint32_t wall = builder.profile({{0, 0}, {0, -0.002}}, 0u);
     builder.add(make_line({0.5, 1.0}, {0.5, 0.0}), butt_end(), butt_end(), builder.style(wall, 0.0, true));
-    expect_height({0.2, 0.5}, 0.0);     // left of the way up
+    expect_height({0.2, 0.5}, 0.0);  // left of the way up
     expect_height({0.8, 0.5}, -0.002);
-    expect_height({1.2, 0.5}, 0.0);     // beyond the map
+    expect_height({1.2, 0.5}, 0.0);  // beyond the map
 }
 
 TEST_F(Surface, RepeatsOrEndsAtTheBorder) {
@@ -248,16 +259,18 @@ TEST_F(Surface, RepeatsOrEndsAtTheBorder) {
     expect_height({1.05, 0.5}, 0.0);
 }
 
-// ---- profiles that are no height fields --------------------------------------------------------------------------
+// ---- profiles that are no height fields
+// --------------------------------------------------------------------------
 
 TEST_F(Surface, DovetailGrooveIsOpenBelowItsLips) {
-    const std::uint32_t dovetail = builder.profile({{-0.02, 0}, {-0.05, -0.003}, {0.05, -0.003}, {0.02, 0}}, 7u);
+    const std::uint32_t dovetail =
+        builder.profile({{-0.02, 0}, {-0.05, -0.003}, {0.05, -0.003}, {0.02, 0}}, 7u);
     builder.add(make_line({0.2, 0.5}, {0.8, 0.5}), butt_end(), butt_end(), builder.style(dovetail));
     const Truth truth(builder.pattern);
     EXPECT_NEAR(truth.surface_at({0.5, 0.51}).height, -0.003, 1e-15);
     EXPECT_NEAR(truth.surface_at({0.5, 0.53}).height, 0.0, 1e-15);
-    EXPECT_TRUE(truth.is_solid({0.5, 0.53}, -0.0005));   // the lip
-    EXPECT_FALSE(truth.is_solid({0.5, 0.53}, -0.002));   // under it
+    EXPECT_TRUE(truth.is_solid({0.5, 0.53}, -0.0005));  // the lip
+    EXPECT_FALSE(truth.is_solid({0.5, 0.53}, -0.002));  // under it
     // From the middle of the groove outwards and up: the lip from below.
     const RayHit hit = truth.trace_ray({{0.5, 0.5, -0.0025}, {0, 1, 0}});
     ASSERT_TRUE(hit.hit);
@@ -267,8 +280,15 @@ TEST_F(Surface, DovetailGrooveIsOpenBelowItsLips) {
 }
 
 TEST_F(Surface, MushroomHasRoomUnderItsCap) {
-    const std::uint32_t mushroom = builder.profile(
-        {{-0.01, 0}, {-0.01, 0.001}, {-0.04, 0.001}, {-0.04, 0.002}, {0.04, 0.002}, {0.04, 0.001}, {0.01, 0.001}, {0.01, 0}}, 0u);
+    const std::uint32_t mushroom = builder.profile({{-0.01, 0},
+                                                    {-0.01, 0.001},
+                                                    {-0.04, 0.001},
+                                                    {-0.04, 0.002},
+                                                    {0.04, 0.002},
+                                                    {0.04, 0.001},
+                                                    {0.01, 0.001},
+                                                    {0.01, 0}},
+                                                   0u);
     builder.add(make_line({0.2, 0.5}, {0.8, 0.5}), butt_end(), butt_end(), builder.style(mushroom));
     const Truth truth(builder.pattern);
     EXPECT_NEAR(truth.surface_at({0.5, 0.53}).height, 0.002, 1e-15);
@@ -297,7 +317,8 @@ TEST_F(Surface, ExplicitFlagsDecideWhatCuts) {
     }
 }
 
-// ---- rays ----------------------------------------------------------------------------------------------------
+// ---- rays
+// ----------------------------------------------------------------------------------------------------
 
 TEST_F(Surface, RayMeetsTheFarWall) {
     builder.add(make_line({0.2, 0.5}, {0.8, 0.5}), butt_end(), butt_end(), groove_style());
@@ -334,7 +355,8 @@ TEST_F(Surface, RaysFromTheSurfaceFromInsideAndAway) {
 }
 
 TEST_F(Surface, GrazingRayFindsARidgeManyTilesAway) {
-    builder.add(make_line({0.5, 0.2}, {0.5, 0.4}), butt_end(), butt_end(), builder.style(builder.ridge(0.01, 0.002)));
+    builder.add(make_line({0.5, 0.2}, {0.5, 0.4}), butt_end(), butt_end(),
+                builder.style(builder.ridge(0.01, 0.002)));
     // Slope 1:100 in v: passes tile after tile beside the ridge, and meets it where v comes to 0.2 again.
     const RayHit hit = trace_ray(builder.pattern, {{0.0, 0.41, 0.001}, {1, 0.01, 0}});
     ASSERT_TRUE(hit.hit);
@@ -354,7 +376,8 @@ TEST_F(Surface, ClampedMapEndsInAWall) {
     EXPECT_NEAR(far.position[0], -4.5, 1e-12);
 }
 
-// ---- maps ------------------------------------------------------------------------------------------------------
+// ---- maps
+// ------------------------------------------------------------------------------------------------------
 
 TEST_F(Surface, MapIsTheExactAreaMean) {
     // A plain wall half-way through a column of texels, and a bevel that is linear inside every texel.
