@@ -160,7 +160,9 @@ class TexelModel {
         }
         const double height = scale_at(f.frame.height0, f.frame.height1, say.placement.along);
         say.value = f.level_left + height * profile_mean(*f.profile, b, say.spread, nullptr, nullptr).value;
-        say.cuts = internal_at(*f.profile, b);
+        // A step's cut ends with its profile, at full height where a ridge stands there; a groove's edge fades out.
+        const bool within = b >= f.profile->left() && b <= f.profile->right();
+        say.cuts = (within || !f.step) && internal_at(*f.profile, b);
         return true;
     }
 
@@ -168,31 +170,33 @@ class TexelModel {
         double ground = ground_;
         double value = ground_;
         int winner = -1;
-        int base = -1;
-        Say base_say, winner_say;
+        int nearest_index = -1;
+        says_.resize(count_);
+        spoke_.assign(count_, 0);
         if (near_step_) {
             const NearestStep nearest = nearest_step(layout_, tile_, p);
             ground = value = nearest.level;
-            for (std::size_t i = 0; i < count_ && base < 0; ++i)
-                if (static_cast<int>(candidates_[i].instance) == nearest.instance) base = static_cast<int>(i);
-            if (base >= 0 && say_of(candidates_[base], p, cell, ground, true, base_say))
-                value = base_say.value, winner = base, winner_say = base_say;
-        }
-        if (acting_ > 0) {
-            says_.resize(count_);
-            spoke_.assign(count_, 0);
-            for (std::size_t i = 0; i < count_; ++i)
-                if (static_cast<int>(i) != base && candidates_[i].reach.possible)
-                    spoke_[i] = say_of(candidates_[i], p, cell, ground, false, says_[i]);
-            for (const bool cuts : {false, true}) {
-                for (std::size_t i = 0; i < count_; ++i) {
-                    if (!spoke_[i] || says_[i].cuts != cuts) continue;
-                    if (cuts ? says_[i].value >= value : says_[i].value <= value) continue;
-                    value = says_[i].value, winner = static_cast<int>(i), winner_say = says_[i];
-                }
+            for (std::size_t i = 0; i < count_ && nearest_index < 0; ++i)
+                if (static_cast<int>(candidates_[i].instance) == nearest.instance) nearest_index = static_cast<int>(i);
+            // The nearest step's mean stands for the ground: the ground's own jump at its line is no surface.
+            if (nearest_index >= 0) {
+                Say& say = says_[nearest_index];
+                spoke_[nearest_index] = say_of(candidates_[nearest_index], p, cell, ground, true, say);
+                if (spoke_[nearest_index]) value = say.value, winner = nearest_index;
             }
         }
-        if (derivatives_ && winner >= 0) differentiate(candidates_[winner], winner_say, share);
+        if (acting_ > 0) {
+            for (std::size_t i = 0; i < count_; ++i)
+                if (static_cast<int>(i) != nearest_index && candidates_[i].reach.possible)
+                    spoke_[i] = say_of(candidates_[i], p, cell, ground, false, says_[i]);
+            // All additions before any subtraction.
+            for (std::size_t i = 0; i < count_; ++i)
+                if (spoke_[i] && says_[i].value > value) value = says_[i].value, winner = static_cast<int>(i);
+            for (std::size_t i = 0; i < count_; ++i)
+                if (spoke_[i] && says_[i].cuts && says_[i].value < value)
+                    value = says_[i].value, winner = static_cast<int>(i);
+        }
+        if (derivatives_ && winner >= 0) differentiate(candidates_[winner], says_[winner], share);
         if (derivatives_ && winner < 0) differentiate_ground(ground, share);
         return value;
     }

@@ -41,7 +41,7 @@ SweptProfile swept(const ResolvedProfile& profile);
 // Requires: spread.u + spread.v > 0. d_b and d_h have room for every point, or both are null.
 ProfileMean profile_mean(const SweptProfile& profile, double b, Spread spread, double* d_b, double* d_h);
 
-// Whether the facet at offset b cuts; beyond the ends: that of the outermost facet.
+// Whether the facet at offset b cuts.
 bool internal_at(const SweptProfile& profile, double b);
 
 }  // namespace burin::refinement
