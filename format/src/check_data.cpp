@@ -133,7 +133,8 @@ void check_points(const std::vector<ProfilePointCode>& points, bool step, const 
         }
         at_zero = at_zero || points[i].b == 0;
     }
-    if (points.front().b >= points.back().b) {
+    // A step may be a bare cliff, all over its path line.
+    if (points.front().b > points.back().b || (points.front().b == points.back().b && !step)) {
         reporter.report(4031,
                         "the first point's b code " + std::to_string(points.front().b) +
                             " is not less than the last one's " + std::to_string(points.back().b),

@@ -191,6 +191,8 @@ Packer::Failure Packer::encode_profile(std::size_t index) {
     // Rounded up, so that no point lies beyond 1.
     code.reach = static_cast<float>(reach);
     if (static_cast<double>(code.reach) < reach) code.reach = std::nextafter(code.reach, HUGE_VALF);
+    // A bare cliff, all points over the path line itself: any length will do as unit of its b.
+    if (reach == 0.0) code.reach = static_cast<float>(pattern_.depth);
     if (!(code.reach > 0.0f) || !std::isfinite(code.reach)) {
         return invalid("profile " + text(index) + " reaches " + std::to_string(reach) +
                        " m, it must be wider than 0");

@@ -1,0 +1,136 @@
+// SPECIFICATION.md and the code say the same: numbers, limits, the example's bytes.
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <burin/format/validate.hpp>
+
+namespace burin {
+namespace {
+
+std::string read_text(const std::string& path) {
+    std::ifstream file(std::string(BURIN_SOURCE_DIR) + "/format/" + path, std::ios::binary);
+    EXPECT_TRUE(file.good()) << path;
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string both_texts() {
+    return read_text("SPECIFICATION.md") + "\n\n" + read_text("BURIN_materials_path_detail/README.md");
+}
+
+TEST(Specification, EveryNumberIsNamedAndEveryNameIsANumber) {
+    const std::string text = both_texts();
+    std::set<int> named;
+    const std::regex number(R"(\[(\d{4})\])");
+    for (std::sregex_iterator it(text.begin(), text.end(), number), end; it != end; ++it)
+        named.insert(std::stoi((*it)[1]));
+    for (const IssueKind& kind : issue_kinds()) {
+        if (kind.number == 9001) continue;
+        EXPECT_EQ(named.erase(kind.number), 1u) << kind.number << " is not in the text";
+    }
+    for (const int left : named) ADD_FAILURE() << left << " is in the text, the validator does not know it";
+}
+
+// Sentences, roughly: split at full stops, semicolons and list items. A sentence that demands carries a
+// number, or is one of those that say what the words mean or refer to the other page.
+TEST(Specification, EveryDemandCarriesANumber) {
+    std::string text = both_texts();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text = std::regex_replace(text, std::regex(R"(\. |; | - )"), "\n");
+    std::istringstream lines(text);
+    int demands = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find("MUST") == std::string::npos) continue;
+        const bool meta = line.find("RFC 2119") != std::string::npos ||
+                          line.find("Every MUST") != std::string::npos ||
+                          line.find("SPECIFICATION.md") != std::string::npos;
+        ++demands;
+        EXPECT_TRUE(meta || std::regex_search(line, std::regex(R"(\[\d{4}\])"))) << line;
+    }
+    EXPECT_GT(demands, 40);
+}
+
+TEST(Specification, LimitsAreThoseOfTheLayout) {
+    const std::string text = read_text("SPECIFICATION.md");
+    const struct {
+        const char* name;
+        int value;
+    } limits[] = {{"BURIN_MAX_TEXTURE_SIDE", BURIN_MAX_TEXTURE_SIDE},
+                  {"BURIN_MAX_REFS_PER_CELL", BURIN_MAX_REFS_PER_CELL},
+                  {"BURIN_MAX_PROFILE_POINTS", BURIN_MAX_PROFILE_POINTS},
+                  {"BURIN_MAX_ELEMENT_TEXELS", BURIN_MAX_ELEMENT_TEXELS},
+                  {"BURIN_MAX_STYLES", BURIN_MAX_STYLES},
+                  {"BURIN_MAX_PROFILE_TEXELS", BURIN_MAX_PROFILE_TEXELS},
+                  {"BURIN_MAX_MATERIALS", BURIN_MAX_MATERIALS},
+                  {"BURIN_MAX_LIST_TEXELS", BURIN_MAX_LIST_TEXELS}};
+    for (const auto& limit : limits) {
+        const std::string row = "| " + std::to_string(limit.value) + " | `" + limit.name + "` |";
+        EXPECT_NE(text.find(row), std::string::npos) << row;
+    }
+}
+
+std::string hex_rows(const std::vector<std::uint8_t>& bytes, std::size_t per_row) {
+    static const char digits[] = "0123456789abcdef";
+    std::string out;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        if (i > 0 && i % 4 == 0) out += i % per_row == 0 ? '\n' : ' ';
+        out += digits[bytes[i] >> 4];
+        out += digits[bytes[i] & 15];
+    }
+    return out;
+}
+
+TEST(Specification, ExampleIsValidAndItsBytesArePrinted) {
+    const std::string gltf = read_text("examples/minimal.gltf");
+    validate_glb(std::span(reinterpret_cast<const std::uint8_t*>(gltf.data()), gltf.size()),
+                 [](const Issue& issue) {
+                     ADD_FAILURE() << issue.number << " " << issue.pointer << ": " << issue.message;
+                 });
+    const nlohmann::json document = nlohmann::json::parse(gltf);
+    const auto& extension = document["materials"][0]["extensions"][std::string(kPathDetailExtension)];
+    const Result<PathDetail> detail = parse_extension(extension.dump());
+    ASSERT_TRUE(detail.ok());
+    // The README prints the same extension.
+    const std::string readme = read_text("BURIN_materials_path_detail/README.md");
+    const std::size_t begin = readme.find("```json") + 7;
+    const nlohmann::json printed =
+        nlohmann::json::parse(readme.substr(begin, readme.find("```", begin) - begin));
+    EXPECT_EQ(printed["materials"][0]["extensions"][std::string(kPathDetailExtension)], extension);
+
+    const std::string uri = document["buffers"][0]["uri"];
+    const auto view = [&](int index) {
+        const auto& v = document["bufferViews"][static_cast<std::size_t>(index)];
+        // Base64 digits of whole triples; the views begin at multiples of 12 bytes.
+        std::vector<std::uint8_t> all;
+        std::uint32_t bits = 0;
+        int count = 0;
+        for (const char c : uri.substr(uri.find(',') + 1)) {
+            const auto digit =
+                std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
+            if (digit == std::string::npos) break;
+            bits = bits << 6 | static_cast<std::uint32_t>(digit);
+            if ((count += 6) >= 8) all.push_back(static_cast<std::uint8_t>(bits >> (count -= 8)));
+        }
+        const auto first = all.begin() + v["byteOffset"].get<std::ptrdiff_t>();
+        return std::vector<std::uint8_t>(first, first + v["byteLength"].get<std::ptrdiff_t>());
+    };
+    const std::string text = read_text("SPECIFICATION.md");
+    const auto expect_rows = [&text](const std::vector<std::uint8_t>& bytes, std::size_t per_row) {
+        std::istringstream rows(hex_rows(bytes, per_row));
+        for (std::string row; std::getline(rows, row);) {
+            EXPECT_NE(text.find("\n" + row + "    "), std::string::npos) << row;
+        }
+    };
+    expect_rows(view(detail->grid_view), 8);
+    expect_rows(view(detail->data_view), 16);
+}
+
+}  // namespace
+}  // namespace burin
