@@ -39,7 +39,8 @@ float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRa
     float t = mix(ta, tb, fa / (fa - fb));
     if (straight) return t;
     // Regula falsi with halving of the end that stays (Illinois).
-    for (int i = 0; i < 5; ++i) {
+    float settled = 1.0e-6f * burin_map.depth;
+    for (int i = 0; i < 12; ++i) {
         float f = dot(burin_section(e, style, piece, ray, t).q - anchor, across);
         if ((f > 0.0f) == (fb > 0.0f)) {
             tb = t;
@@ -52,7 +53,10 @@ float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRa
             fb = f;
         }
         if (abs(fa - fb) < 1.0e-12f) break;
-        t = clamp(mix(ta, tb, fa / (fa - fb)), range.x, range.y);
+        float better = clamp(mix(ta, tb, fa / (fa - fb)), range.x, range.y);
+        bool done = abs(better - t) < settled;
+        t = better;
+        if (done) break;
     }
     return t;
 }
