@@ -156,12 +156,18 @@ void settle_foot(const Work& work, const WorkPath& path, std::size_t element, do
     }
 }
 
-// Whether p lies where an end of `path` that belongs to this cluster is: then it is that end, not the interior.
-bool is_own_end(const Work& work, const WorkPath& path, int cluster, Vec2 p) {
+// Whether p, on an element of `path`, lies where an end of that path belongs to this cluster: then it is that end, not
+// the interior. Elsewhere on the path it is interior, also when the path comes back to its own end.
+bool is_own_end(const Work& work, const WorkPath& path, int cluster, std::size_t element, Vec2 p) {
     if (path.closed) return false;
+    const std::size_t last = path.elements.size() - 1;
     for (int which = 0; which < 2; ++which) {
-        const Vec2 end = which == 0 ? path.elements.front().p0 : path.elements.back().p2;
-        if (path.end[which].cluster == cluster && length(copy_near(work, end, p) - p) <= 2.0 * work.snap + 1e-12) return true;
+        if (path.end[which].cluster != cluster) continue;
+        const Element& e = path.elements[which == 0 ? 0 : last];
+        const std::size_t from_end = which == 0 ? element : last - element;
+        const Vec2 end = which == 0 ? e.p0 : e.p2;
+        if (length(copy_near(work, end, p) - p) > 2.0 * work.snap + 1e-12) continue;
+        if (from_end == 0 || (from_end == 1 && curve::arc_length(e) < 4.0 * work.snap)) return true;
     }
     return false;
 }
@@ -186,7 +192,7 @@ Foot foot_of_cluster(const Work& work, const ChordIndex& index, const std::vecto
         foot.distance = length(curve::point(path.elements[chord.element], s) + by - p);
         foot.step = path.step;
         foot.found = true;
-        if (foot.distance > reach || is_own_end(work, path, number, foot.position)) return;
+        if (foot.distance > reach || is_own_end(work, path, number, chord.element, foot.position)) return;
         // A step's line bounds what acts; it goes before a groove that passes here too.
         if (!best.found || std::pair(!foot.step, foot.distance) < std::pair(!best.step, best.distance)) best = foot;
     });
@@ -241,6 +247,38 @@ void find_loose_steps(const Work& work, const std::vector<EndKey>& cluster, std:
     }
 }
 
+// The element that lets a path fade out: twice as long as the profile is wide.
+Element taper_element(const WorkPath& path, int which) {
+    const Element& e = which == 0 ? path.elements.front() : path.elements.back();
+    const Vec2 at = which == 0 ? e.p0 : e.p2;
+    const Vec2 away = which == 0 ? -curve::tangent(e, 0.0) : curve::tangent(e, 1.0);
+    const double width = which == 0 ? e.width0 : e.width1, height = which == 0 ? e.height0 : e.height1;
+    const Vec2 tip = at + away * (4.0 * path.reach * width);
+    Element taper;
+    taper.p0 = which == 0 ? tip : at;
+    taper.p2 = which == 0 ? at : tip;
+    taper.p1 = lerp(taper.p0, taper.p2, 0.5);
+    taper.width0 = which == 0 ? 0.0 : width;
+    taper.width1 = which == 0 ? width : 0.0;
+    taper.height0 = which == 0 ? 0.0 : height;
+    taper.height1 = which == 0 ? height : 0.0;
+    return taper;
+}
+
+// Before steps are looked for, since the taper may cross one.
+void append_tapers(Work& work, const std::vector<std::vector<EndKey>>& clusters) {
+    for (const auto& cluster : clusters) {
+        if (cluster.size() != 1) continue;
+        const EndKey key = cluster.front();
+        WorkPath& path = work.paths[key.path];
+        const PathEnd& end = path.end[key.which];
+        const Element& e = key.which == 0 ? path.elements.front() : path.elements.back();
+        const bool faded = (key.which == 0 ? e.width0 : e.width1) == 0.0;
+        if (path.cap[key.which] != CapKind::taper || path.step || faded || end.on_path || end.on_border || end.outside) continue;
+        path.elements.insert(key.which == 0 ? path.elements.begin() : path.elements.end(), taper_element(path, key.which));
+    }
+}
+
 }  // namespace
 
 std::vector<Chord> flatten(const Work& work, bool steps_only) {
@@ -278,6 +316,7 @@ std::vector<PathError> connect_ends(Work& work) {
         attach_grooves_to_step_ends(work, cluster);
         find_loose_steps(work, cluster, errors);
     }
+    append_tapers(work, clusters);
     return errors;
 }
 

@@ -140,7 +140,7 @@ std::vector<ArcCrossing> without_touches(const Work& work, const std::vector<Arc
 struct Split {
     std::uint32_t element;
     double s;
-    double clip_angle;
+    ElementEnd end;  // both pieces end like this
 };
 
 // Tangent of a path at a parameter; at a vertex inside the path the mean of both sides.
@@ -156,10 +156,6 @@ Vec2 tangent_at(const Work& work, const WorkPath& path, std::size_t element, dou
     return curve::tangent(e, s);
 }
 
-ElementEnd clip_end(double angle) {
-    return {Priority::both, static_cast<std::uint8_t>(EndShape::clip), angle};
-}
-
 // Cuts one groove at its crossings with steps. `splits` in order along the path.
 void split_path(Work& work, WorkPath& path, const std::vector<Split>& splits) {
     const std::vector<Element> old = std::move(path.elements);
@@ -172,7 +168,7 @@ void split_path(Work& work, WorkPath& path, const std::vector<Split>& splits) {
         path.ends.emplace_back();
         path.region_starts.push_back(0);
     };
-    double pending = -1.0;  // clip angle for the start of the next element
+    std::optional<ElementEnd> pending;  // for the start of the next element
     std::size_t next = 0;
     for (std::size_t k = 0; k < old.size(); ++k) {
         double from = 0.0;
@@ -182,31 +178,31 @@ void split_path(Work& work, WorkPath& path, const std::vector<Split>& splits) {
             ++work.stats.step_crossings;
             if ((s - from) * extent > shortest && (1.0 - s) * extent > shortest) {
                 push(curve::part(old[k], from, s));
-                if (pending >= 0.0) path.starts.back() = clip_end(pending), path.region_starts.back() = 1;
-                path.ends.back() = clip_end(splits[next].clip_angle);
-                pending = splits[next].clip_angle;
+                if (pending) path.starts.back() = *pending, path.region_starts.back() = 1;
+                path.ends.back() = splits[next].end;
+                pending = splits[next].end;
                 from = s;
             } else if ((1.0 - s) * extent <= shortest) {
                 break;  // at the element's end: handled below, once the rest is pushed
             } else if (!path.elements.empty()) {
-                path.ends.back() = clip_end(splits[next].clip_angle);
-                pending = splits[next].clip_angle;
+                path.ends.back() = splits[next].end;
+                pending = splits[next].end;
             } else if (path.closed) {
-                pending = splits[next].clip_angle;
+                pending = splits[next].end;
             }
         }
         push(curve::part(old[k], from, 1.0));
-        if (pending >= 0.0) path.starts.back() = clip_end(pending), path.region_starts.back() = 1;
-        pending = -1.0;
+        if (pending) path.starts.back() = *pending, path.region_starts.back() = 1;
+        pending.reset();
         for (; next < splits.size() && splits[next].element == k; ++next) {
             if (k + 1 == old.size() && !path.closed) continue;  // within the snap distance of an end: no piece beyond
-            path.ends.back() = clip_end(splits[next].clip_angle);
-            pending = splits[next].clip_angle;
+            path.ends.back() = splits[next].end;
+            pending = splits[next].end;
         }
     }
     // A closed path's last end and first start are one vertex.
-    if (path.closed && pending >= 0.0) path.starts.front() = clip_end(pending), path.region_starts.front() = 1;
-    if (path.closed && path.region_starts.front() && pending < 0.0) path.ends.back() = path.starts.front();
+    if (path.closed && pending) path.starts.front() = *pending, path.region_starts.front() = 1;
+    if (path.closed && path.region_starts.front() && !pending) path.ends.back() = path.starts.front();
 }
 
 // Side of a chord on which p lies: cross > 0 is the right.
@@ -380,11 +376,12 @@ std::vector<PathError> split_at_steps(Work& work) {
         if (!a.step && !b.step) continue;
         const int groove = a.step ? 1 : 0, step = 1 - groove;
         const Vec2 tangent = tangent_at(work, work.paths[crossing.path[step]], crossing.element[step], crossing.s[step]);
-        splits[crossing.path[groove]].push_back({crossing.element[groove], crossing.s[groove], line_angle(tangent)});
+        const Vec2 along = curve::tangent(work.paths[crossing.path[groove]].elements[crossing.element[groove]], crossing.s[groove]);
+        splits[crossing.path[groove]].push_back({crossing.element[groove], crossing.s[groove], clip_or_hip(along, tangent)});
     }
     for (std::size_t p = 0; p < work.paths.size(); ++p) {
         std::sort(splits[p].begin(), splits[p].end(), [](const Split& a, const Split& b) {
-            return std::tuple(a.element, a.s, a.clip_angle) < std::tuple(b.element, b.s, b.clip_angle);
+            return std::tuple(a.element, a.s, a.end.clip_angle) < std::tuple(b.element, b.s, b.end.clip_angle);
         });
         split_path(work, work.paths[p], splits[p]);
     }

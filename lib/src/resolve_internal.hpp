@@ -74,7 +74,7 @@ bool tolerate(Work& work, const std::string& message);
 // Arcs as chords, path by path in order.
 std::vector<Chord> flatten(const Work& work, bool steps_only);
 
-// Ends that meet, ends on other paths: moves them together. Bad step ends are named in `errors` by path index.
+// Ends that meet, ends on other paths: moves them together. Ends that fade out get their taper. Bad step ends are named in `errors` by path index.
 struct PathError {
     std::size_t path = 0;
     std::string message;
@@ -86,7 +86,11 @@ std::vector<PathError> split_at_steps(Work& work);
 // Level of every element: the ground its run between steps lies in.
 void find_levels(Work& work);
 
-// Priority of every element end, and the taper elements.
+// End that runs up to a line of direction `clip`. A line nearly along the element's own tangent would cut it lengthwise
+// far beyond the end; a hip ends it instead (a step's line still bounds it by the level).
+ElementEnd clip_or_hip(Vec2 tangent, Vec2 clip);
+
+// Priority of every element end.
 void find_priorities(Work& work);
 
 // Cuts elements to the tile and numbers styles.

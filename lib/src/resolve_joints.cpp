@@ -79,43 +79,6 @@ void join_inside(Work& work, WorkPath& path) {
     }
 }
 
-// A line onto which an element runs nearly along its own tangent would cut it lengthwise; a hip ends it instead.
-ElementEnd clip_or_hip(Vec2 outgoing, Vec2 clip) {
-    constexpr double kSmallest = 0.12;  // sine of about 7 degrees
-    if (std::abs(cross(outgoing, clip)) < kSmallest) return both(EndShape::hip);
-    return both(EndShape::clip, line_angle(clip));
-}
-
-// The element that lets a path fade out: as long as the profile is wide on both sides.
-Element taper_element(const WorkPath& path, int which) {
-    const Element& e = which == 0 ? path.elements.front() : path.elements.back();
-    const Vec2 at = which == 0 ? e.p0 : e.p2;
-    const Vec2 away = which == 0 ? -curve::tangent(e, 0.0) : curve::tangent(e, 1.0);
-    const double width = which == 0 ? e.width0 : e.width1, height = which == 0 ? e.height0 : e.height1;
-    const Vec2 tip = at + away * (4.0 * path.reach * width);
-    Element taper;
-    taper.p0 = which == 0 ? tip : at;
-    taper.p2 = which == 0 ? at : tip;
-    taper.p1 = lerp(taper.p0, taper.p2, 0.5);
-    taper.width0 = which == 0 ? 0.0 : width;
-    taper.width1 = which == 0 ? width : 0.0;
-    taper.height0 = which == 0 ? 0.0 : height;
-    taper.height1 = which == 0 ? height : 0.0;
-    return taper;
-}
-
-void append_taper(WorkPath& path, int which) {
-    const Element taper = taper_element(path, which);
-    const double across = line_angle(normal_of(taper.p2 - taper.p0));
-    const std::size_t at = which == 0 ? 0 : path.elements.size();
-    (which == 0 ? path.starts.front() : path.ends.back()) = both(EndShape::clip, across);
-    path.elements.insert(path.elements.begin() + at, taper);
-    path.starts.insert(path.starts.begin() + at, which == 0 ? ElementEnd{} : both(EndShape::clip, across));
-    path.ends.insert(path.ends.begin() + at, which == 0 ? both(EndShape::clip, across) : ElementEnd{});
-    path.region_starts.insert(path.region_starts.begin() + at, 0);
-    path.levels.insert(path.levels.begin() + at, which == 0 ? path.levels.front() : path.levels.back());
-}
-
 void cap_end(Work& work, WorkPath& path, int which) {
     ElementEnd& end = which == 0 ? path.starts.front() : path.ends.back();
     const Element& e = which == 0 ? path.elements.front() : path.elements.back();
@@ -128,7 +91,7 @@ void cap_end(Work& work, WorkPath& path, int which) {
         case CapKind::butt: break;
         case CapKind::hip: end = both(EndShape::hip); break;
         case CapKind::round: end = both(EndShape::round); break;
-        case CapKind::taper: append_taper(path, which); break;
+        case CapKind::taper: break;  // has faded out
     }
 }
 
@@ -163,6 +126,12 @@ void join_cluster(Work& work, const std::vector<EndRef>& ends) {
 }
 
 }  // namespace
+
+ElementEnd clip_or_hip(Vec2 tangent, Vec2 clip) {
+    constexpr double kSmallest = 0.12;  // sine of about 7 degrees
+    if (std::abs(cross(tangent, clip)) < kSmallest) return both(EndShape::hip);
+    return both(EndShape::clip, line_angle(clip));
+}
 
 void find_priorities(Work& work) {
     for (WorkPath& path : work.paths) join_inside(work, path);
