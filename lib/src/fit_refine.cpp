@@ -103,12 +103,17 @@ class Refiner {
     void number(long k, bool vertex_free);
     void shape_envelope();
     template <typename Visit>
-    void for_each_piece(Visit visit);
+    void for_each_piece(Visit visit) const;
     Local quadratic(long k);
     Local line(long k);
     Local end_stop(long k, bool at_start);
     std::array<int, kMost> columns_of(long k, bool quadratic) const;
+    Local balance(long k);
+    Local anchor(long k);
     double assemble(bool with_matrix);
+    int folded() const;
+    bool strayed() const;
+    void set_anchors();
     void step(const std::vector<double>& change);
     double weight(long i, double distance) const;
     void mark_ignored();
@@ -128,6 +133,12 @@ class Refiner {
     // Points near each corner. They are chosen before the first step and kept: were they to follow the corner, a step
     // could lower the sum by driving points out of it.
     std::vector<PointRange> ignored_;
+    struct Anchor {
+        bool held = false;
+        Vec2 p;
+        double reach = 0.0;
+    };
+    std::vector<Anchor> anchors_;  // by vertex
     std::vector<double> right_;
 };
 
@@ -139,6 +150,7 @@ Refiner::Refiner(Chain& chain, const Points& points, const FitOptions& options, 
     shape_envelope();
     right_.resize(static_cast<std::size_t>(unknowns_));
     mark_ignored();
+    set_anchors();
 }
 
 // Side k's fractions that may move, and vertex k when it may.
@@ -172,7 +184,7 @@ void Refiner::number_unknowns() {
 }
 
 template <typename Visit>
-void Refiner::for_each_piece(Visit visit) {
+void Refiner::for_each_piece(Visit visit) const {
     long first = whole_ ? 0 : window_.first - 1;
     long last = whole_ ? chain_.size() - 1 : window_.first + window_.count;
     if (!chain_.closed) first = std::max(first, 0L), last = std::min(last, chain_.size() - 1);
@@ -270,13 +282,17 @@ Local Refiner::line(long k) {
     const Vec2 side = chain_.position(k + 1) - a;
     const Vec2 n = normal_of(unit(side));
     const double scale = 1.0 / std::max(dot(side, side), 1e-12);
-    const PointRange range = looked_at({chain_.end(k), chain_.begin(k + 1)}, k, k + 1);
+    const PointRange all{chain_.end(k), chain_.begin(k + 1)};
+    PointRange range = looked_at(all, k, k + 1);
+    double trust = 1.0;
+    // A side so short that its corners claim all its points: they are the best there is.
+    if (range.end - range.begin < 2) range = all, trust = 0.1;
     for (long i = range.begin; i < range.end; ++i) {
         const Vec2 p = points_[i] - a;
         const double along = dot(p, side) * scale;
         const double residual = dot(n, p);
         const double c0 = 1.0 - along;
-        local.add({c0 * n.x, c0 * n.y, along * n.x, along * n.y, 0, 0, 0, 0}, residual, weight(i, residual));
+        local.add({c0 * n.x, c0 * n.y, along * n.x, along * n.y, 0, 0, 0, 0}, residual, trust * weight(i, residual));
     }
     return local;
 }
@@ -295,6 +311,76 @@ Local Refiner::end_stop(long k, bool at_start) {
     const Vec2 target = points_[at_start ? 0 : points_.count - 1];
     local.add({t.x, t.y, 0, 0, 0, 0, 0, 0}, dot(t, target - v), 1.0);
     return local;
+}
+
+// The control point of a nearly straight quadratic could slide along it at no cost. A weak pull to the middle decides: at a
+// third of the length off, it weighs as much as an error of a tenth of the tolerance in every point.
+Local Refiner::balance(long k) {
+    Local local;
+    local.column.fill(-1);
+    local.count = 2;
+    const Columns& c = at(k);
+    if (c.vertex < 0) return local;
+    local.column[0] = c.vertex;
+    local.column[1] = c.vertex + 1;
+    const Vec2 p0 = chain_.joint_in(k), p2 = chain_.joint_out(k);
+    const double chord = std::max(length(p2 - p0), 1e-9);
+    const Vec2 t = (p2 - p0) * (1.0 / chord);
+    const double share = 0.3 * options_.tolerance / chord;
+    const double pull = share * share * static_cast<double>(std::max(4L, chain_.end(k) - chain_.begin(k)));
+    local.add({t.x, t.y, 0, 0, 0, 0, 0, 0}, dot(t, (p0 + p2) * 0.5 - chain_.position(k)), pull);
+    return local;
+}
+
+// A corner whose one side has hardly a point could run away along the other. It is tied, weakly, to the points about it.
+Local Refiner::anchor(long k) {
+    Local local;
+    local.column.fill(-1);
+    local.count = 2;
+    const Columns& c = at(k);
+    local.column[0] = c.vertex;
+    local.column[1] = c.vertex + 1;
+    constexpr double kPull = 0.01;  // of a point's weight: moves a corner between sides of three points by 1/300 texel
+    const Vec2 d = anchors_[static_cast<std::size_t>(k)].p - chain_.position(k);
+    local.add({1, 0, 0, 0, 0, 0, 0, 0}, d.x, kPull);
+    local.add({0, 1, 0, 0, 0, 0, 0, 0}, d.y, kPull);
+    return local;
+}
+
+void Refiner::set_anchors() {
+    anchors_.resize(chain_.vertices.size());
+    for (std::size_t i = 0; i < anchors_.size(); ++i) {
+        const long k = static_cast<long>(i);
+        if (!chain_.at(k).corner || at(k).vertex < 0) continue;
+        if (!chain_.closed && (k == 0 || k == chain_.size() - 1)) continue;
+        const long border = chain_.begin(k);
+        anchors_[i].p = (points_[border - 1] + points_[border]) * 0.5;
+        anchors_[i].held = true;
+        const Vec2 in = unit(chain_.position(k) - chain_.position(k - 1));
+        const Vec2 out = unit(chain_.position(k + 1) - chain_.position(k));
+        const double now = length(chain_.position(k) - anchors_[i].p);
+        const double spacing = length(points_[border] - points_[border - 1]);
+        anchors_[i].reach = std::max(now, 1.5 * corner_radius(in, out, options_.corner_reach) +
+                                              2.0 * options_.tolerance + spacing);
+    }
+}
+
+bool Refiner::strayed() const {
+    for (std::size_t k = 0; k < anchors_.size(); ++k)
+        if (anchors_[k].held && length(chain_.vertices[k].v - anchors_[k].p) > anchors_[k].reach) return true;
+    return false;
+}
+
+// Quadratics whose control point does not lie between their ends, seen along the chord: their tangents run backwards.
+int Refiner::folded() const {
+    int count = 0;
+    for_each_piece([&](long k, bool is_quadratic) {
+        if (!is_quadratic) return;
+        const Vec2 p0 = chain_.joint_in(k), chord = chain_.joint_out(k) - p0;
+        const double along = dot(chain_.position(k) - p0, chord), whole = dot(chord, chord);
+        if (!(along > 0.02 * whole && along < 0.98 * whole)) ++count;
+    });
+    return count;
 }
 
 double Refiner::assemble(bool with_matrix) {
@@ -321,7 +407,12 @@ double Refiner::assemble(bool with_matrix) {
         matrix_.clear();
         std::fill(right_.begin(), right_.end(), 0.0);
     }
-    for_each_piece([&](long k, bool is_quadratic) { scatter(is_quadratic ? quadratic(k) : line(k)); });
+    for_each_piece([&](long k, bool is_quadratic) {
+        scatter(is_quadratic ? quadratic(k) : line(k));
+        if (is_quadratic) scatter(balance(k));
+    });
+    for (std::size_t k = 0; k < anchors_.size(); ++k)
+        if (anchors_[k].held) scatter(anchor(static_cast<long>(k)));
     if (!chain_.closed && at(0).vertex >= 0) scatter(end_stop(0, true));
     if (!chain_.closed && at(chain_.size() - 1).vertex >= 0) scatter(end_stop(chain_.size() - 1, false));
     return sum;
@@ -357,13 +448,16 @@ double Refiner::run(int iterations) {
         const Chain saved = chain_;
         for (std::size_t d = 0; d < matrix_.size(); ++d) matrix_.at(d, d) = matrix_.at(d, d) * (1.0 + damping) + 1e-7;
         std::vector<double> change = right_;
-        if (matrix_.factor()) {
+        bool sound = matrix_.factor();
+        if (sound) {
             matrix_.solve(change);
+            const int folded_before = folded();
             step(change);
-            assign_points(chain_, points_, window_);
+            sound = folded() <= folded_before && !strayed();
         }
+        if (sound) assign_points(chain_, points_, window_);
         const double before = cost;
-        const double after = assemble(true);
+        const double after = sound ? assemble(true) : before;
         if (after < before) {
             cost = after;
             damping *= 0.2;

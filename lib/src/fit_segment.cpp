@@ -161,7 +161,7 @@ double cost_of_ends(const Points& points, const FitOptions& options, long first,
     for (long i = first; i < core.begin; ++i) most = std::max(most, distance(points[i]));
     for (long i = core.end; i <= last; ++i) most = std::max(most, distance(points[i]));
     const double over = std::max(0.0, most - options.tolerance) / (0.3 * options.corner_reach);
-    return 0.5 * over * over;
+    return 0.25 * over * over;
 }
 
 // Solves the symmetric system of N unknowns in place; false when it is singular.
@@ -299,9 +299,10 @@ bool fit_quadratic(const Points& points, const FitOptions& options, double reach
         improve(s, c, true);
         error = improve(s, c, false);
     }
-    // A control polygon that turns by more than 120 degrees has left the arc that the points show.
-    const Vec2 in = unit(c[1] - c[0]), out = unit(c[2] - c[1]);
-    if (error.largest > options.tolerance || dot(in, out) < -0.5) return false;
+    // A control polygon that turns by more than 120 degrees or is far off balance has left the arc that the points show.
+    const Vec2 in = unit(c[1] - c[0]), out = unit(c[2] - c[1]), chord = c[2] - c[0];
+    const double along = dot(c[1] - c[0], chord) / std::max(dot(chord, chord), 1e-12);
+    if (error.largest > options.tolerance || dot(in, out) < -0.5 || along < 0.1 || along > 0.9) return false;
     piece.start = c[0], piece.control = c[1], piece.end = c[2];
     piece.direction_in = in, piece.direction_out = out;
     piece.cost = piece_cost(kQuadraticCost, error, options.tolerance);
