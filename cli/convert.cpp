@@ -86,6 +86,11 @@ Report describe(const Arguments& arguments, const HeightMap& map, const Converte
     report.add({"p999", "99.9th percentile", stats.p999, percent_text(stats.p999, 3) + " of range"});
     report.add({"path_length_texels", "", stats.path_length_texels, ""});
     report.add({"path_like", "", stats.path_like, ""});
+    report.add({"repeat", "", stats.repeat, ""});
+    report.add({"refined", "", stats.refined, ""});
+    report.add({"noise", "", stats.noise, ""});
+    report.add({"tolerance_texels", "", stats.tolerance, ""});
+    report.add({"dropped_paths", "", std::int64_t{stats.dropped_paths}, ""});
     std::vector<Field> seconds;
     for (const auto& [stage, spent] : stats.seconds) seconds.push_back({stage, stage, spent, number_text(spent)});
     report.add_group("seconds", "seconds", std::move(seconds));
@@ -97,6 +102,9 @@ Report describe(const Arguments& arguments, const HeightMap& map, const Converte
         notes.rows.push_back({{"note", "note",
                                "the map is not path-like: the paths explain " + number_text(stats.explained) +
                                    " of its detail; the fallback maps carry the rest", ""}});
+    if (stats.dropped_paths > 0)
+        notes.rows.push_back(
+            {{"note", "note", std::to_string(stats.dropped_paths) + " traced paths could not be joined and were left out", ""}});
     report.add_rows(std::move(notes));
     return report;
 }

@@ -1,0 +1,71 @@
+// All stages in order: a height map and a model become one binary glTF.
+//
+//     HeightMap + Model --[convert_map]--> bytes of OUT.glb, and what was measured on the way
+//
+//     vectorize -> refine -> resolve -> grid -> pack -> measure -> bake -> glTF
+//
+// The figures are measured on the bytes that are written: the textures are unpacked again, rasterized by the evaluator
+// and compared with the map (DESIGN 7). Nothing a stage estimates stands in for them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <burin/bake.hpp>
+#include <burin/grid.hpp>
+#include <burin/heightmap.hpp>
+#include <burin/model.hpp>
+#include <burin/pack.hpp>
+#include <burin/refine.hpp>
+#include <burin/resolve.hpp>
+#include <burin/result.hpp>
+#include <burin/vectorize.hpp>
+
+namespace burin {
+
+// The options of every stage. `threads` goes to all of them and replaces what they hold.
+struct ConvertOptions {
+    VectorizeOptions vectorize;
+    bool refine = true;  // least squares against the map after vectorizing
+    RefineOptions refinement;
+    ResolveOptions resolve{.lenient = true};  // a traced path that cannot be resolved is dropped and counted
+    GridOptions grid;
+    PackOptions pack;
+    FallbackOptions fallback;
+    AttachOptions attach;
+    int threads = 0;  // 0: all cores; the result does not depend on it
+};
+
+struct ConvertStats {
+    // The pattern as stored: elements after splitting at steps and borders.
+    int paths = 0, lines = 0, quadratics = 0, profiles = 0, cells = 0;
+    int dropped_paths = 0;                // could not be resolved
+    std::size_t grid_bytes = 0, data_bytes = 0, file_bytes = 0;
+    bool refined = false;                 // the refinement ran and was kept
+    double noise = 0.0;                   // standard deviation of the map's grain, of its range
+    double tolerance = 0.0;               // of the fit, texels
+    double path_length_texels = 0.0;      // of all stored elements together
+    bool repeat = true;                   // the pattern tiles
+    bool path_like = true;                // false: the paths carry only a little of the map
+    double explained = 0.0;               // DESIGN 7, paths alone
+    double rms = 0.0, p999 = 0.0, max = 0.0;  // height errors as shares of the range
+    std::vector<std::pair<std::string, double>> seconds;  // per stage, in order
+};
+
+struct Converted {
+    std::vector<std::uint8_t> glb;
+    ConvertStats stats;
+};
+
+// Requires: the model was checked with find_material, or its error is welcome late.
+// Ensures: the bytes depend on map, model and options alone, not on `threads`; the time in `stats` is the only thing that
+// differs between runs.
+// Fails with the error of the stage that failed, and with invalid_argument when `progress` returns false.
+// Cost: that of vectorizing and refining; the other stages together stay below a few seconds for 2048 x 2048.
+Result<Converted> convert_map(const HeightMap& map, const Model& model, const ConvertOptions& options = {},
+                              const Progress& progress = {});
+
+}  // namespace burin
