@@ -9,8 +9,8 @@ namespace {
 // Half the derivative of B, and a tangent that stays defined where it vanishes (p1 on p0 or on p2).
 Vec2 direction_at(const PreparedElement& e, double u) {
     const Vec2 d = e.edge + e.bend * u;
-    const double scale = std::max(length(e.edge), length(e.bend));
-    if (length(d) > 1e-12 * scale) return d;
+    const double scale = std::max(dot(e.edge, e.edge), dot(e.bend, e.bend));
+    if (dot(d, d) > 1e-24 * scale) return d;
     // Near the zero of B' the direction is that of +-B''; the one that leads on along the curve.
     return e.bend * (u < 0.5 ? 1.0 : -1.0);
 }
@@ -90,7 +90,10 @@ int solve_quadratic(double a, double b, double c, double roots[2]) {
 }
 
 Vec2 tangent_on(const PreparedElement& e, double u) {
-    return e.kind == ElementKind::line ? e.tangent : unit(direction_at(e, u));
+    if (e.kind == ElementKind::line) return e.tangent;
+    const Vec2 d = direction_at(e, u);
+    const double l = std::sqrt(dot(d, d));  // std::hypot costs as much as the rest of a foot point
+    return l > 0.0 ? d * (1.0 / l) : Vec2{1.0, 0.0};
 }
 
 int meet_line(const PreparedElement& e, Vec2 p, Vec2 d, double u[2]) {

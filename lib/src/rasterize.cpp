@@ -111,12 +111,15 @@ Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, co
 // ---- buckets
 // -------------------------------------------------------------------------------------------------
 
+bool near_box(const Box& box, Vec2 p, double radius) {
+    return p.x + radius >= box.low.x && p.y + radius >= box.low.y && p.x - radius <= box.high.x &&
+           p.y - radius <= box.high.y;
+}
+
 // False only where the element acts at no point within `radius` of p.
 bool Rasterizer::can_act(const PreparedElement& e, Vec2 p, double radius) const {
     const double slack = radius * (1.0 + 1e-9);
-    if (p.x + slack < e.box.low.x || p.y + slack < e.box.low.y || p.x - slack > e.box.high.x ||
-        p.y - slack > e.box.high.y)
-        return false;
+    if (!near_box(e.box, p, slack)) return false;
     for (const PreparedEnd& end : e.ends) {
         const bool stops = end.priority == Priority::none;
         const bool clips = end.priority == Priority::both && end.end == EndShape::clip;
@@ -296,6 +299,7 @@ Cover Rasterizer::cover_of(const Entry& entry, Vec2 centre, double ground, Plane
     const PreparedElement& e = *entry.element;
     const Vec2 p = centre - entry.shift;
     const double r = radius_ * (1.0 + 1e-9);
+    if (!near_box(e.box, p, r)) return Cover::absent;
     const Foot foot = truth::find_foot(e, p);
     if (std::abs(foot.offset) > e.reach + r) return Cover::absent;
     bool clear = !e.scaled && truth_.profiles[e.profile].height_field && e.width0 > 0.0;
@@ -341,7 +345,9 @@ double Rasterizer::sample(const std::vector<Entry>& entries, Vec2 p, double grou
     Local local;
     for (const Entry& entry : entries) {
         const PreparedElement& e = *entry.element;
-        if (!truth::acts_at(truth_, e, p - entry.shift, ground, local)) continue;
+        if (!near_box(e.box, p - entry.shift, 0.0) ||
+            !truth::acts_at(truth_, e, p - entry.shift, ground, local))
+            continue;
         const PreparedProfile& profile = truth_.profiles[e.profile];
         const double b = local.offset / local.width;
         for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
