@@ -14,6 +14,9 @@
 #define BURIN_MAX_PROFILE_TEXELS 65536
 #define BURIN_MAX_MATERIALS 512
 #define BURIN_MAX_LIST_TEXELS 131072
+// Lengths in metres (size, depth, reach): within these their squares and quotients stay finite in 32-bit floats.
+#define BURIN_MIN_LENGTH 1.0e-9
+#define BURIN_MAX_LENGTH 1.0e9
 
 // ---- grid texture: RG32UI, one texel per cell, row-major, cell (0,0) at uv (0,0) --------------------------
 // x: bits 0-19 first reference (index of a 16-bit reference, see lists; 0 when count is 0), 20-25 count, 26-29 skip,

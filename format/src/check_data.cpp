@@ -168,8 +168,9 @@ void check_profile(const PackedTextures& textures, const StyleCode& style, const
 
 void check_style(const PackedTextures& textures, const Sections& sections, const StyleCode& s,
                  const std::string& place, Reporter& reporter) {
-    if (!(s.reach > 0.0f) || !std::isfinite(s.reach)) {
-        reporter.report(4023, "reach is " + number_text(s.reach) + ", must be finite and greater than 0",
+    const auto reach = static_cast<double>(s.reach);
+    if (!(reach >= BURIN_MIN_LENGTH && reach <= BURIN_MAX_LENGTH)) {
+        reporter.report(4023, "reach is " + number_text(reach) + ", a length from 1e-9 to 1e9 m is needed",
                         place);
     }
     if (s.material >= sections.material_texels) {

@@ -1,6 +1,6 @@
 // Checks of the grid texture and of the lists it refers to, SPECIFICATION.md "Grid texture" and "Lists".
 #include <algorithm>
-#include <unordered_set>
+#include <unordered_map>
 
 #include "texture_check.hpp"
 
@@ -69,23 +69,31 @@ bool is_chain(const std::vector<const ElementCode*>& list) {
     return gaps == 0 || (gaps == 1 && joined(*list.back(), *list.front()));
 }
 
-void check_flags(const CellCode& c, const std::vector<const ElementCode*>& list, const DecodedData& data,
-                 const std::string& place, Reporter& reporter) {
-    if ((c.flags & BURIN_CELL_FLAG_STEP) != 0) {
-        const bool step = std::any_of(list.begin(), list.end(), [&data](const ElementCode* e) {
-            const StyleCode* style = data.style_of(*e);
-            return style != nullptr && style->step;
-        });
-        if (!step) reporter.report(3007, "has flag STEP but lists no element of a step", place);
+// What a list is, whichever cell refers to it.
+struct ListTraits {
+    bool chain = true, step = false;
+};
+
+ListTraits traits_of(const std::vector<const ElementCode*>& list, const DecodedData& data) {
+    const bool step = std::any_of(list.begin(), list.end(), [&data](const ElementCode* e) {
+        const StyleCode* style = data.style_of(*e);
+        return style != nullptr && style->step;
+    });
+    return {is_chain(list), step};
+}
+
+void check_flags(const CellCode& c, const ListTraits& list, const std::string& place, Reporter& reporter) {
+    if ((c.flags & BURIN_CELL_FLAG_STEP) != 0 && !list.step) {
+        reporter.report(3007, "has flag STEP but lists no element of a step", place);
     }
-    if ((c.flags & BURIN_CELL_FLAG_ISOLATED) != 0 && !is_chain(list)) {
+    if ((c.flags & BURIN_CELL_FLAG_ISOLATED) != 0 && !list.chain) {
         reporter.report(3008, "has flag ISOLATED but its list is not one smooth chain", place);
     }
 }
 
 // The elements of one cell's list; reports references that lead nowhere or are out of order.
 std::vector<const ElementCode*> check_list(const GridView& grid, const CellCode& c, const DecodedData& data,
-                                           bool report, const std::string& place, Reporter& reporter) {
+                                           const std::string& place, Reporter& reporter) {
     std::vector<const ElementCode*> list;
     std::uint32_t previous = 0;
     for (std::uint32_t k = 0; k < c.count; ++k) {
@@ -93,11 +101,11 @@ std::vector<const ElementCode*> check_list(const GridView& grid, const CellCode&
         const bool is_start =
             reference < data.element_at.size() && data.element_at[reference] != DecodedData::kNone;
         if (is_start) list.push_back(&data.elements[data.element_at[reference]]);
-        if (!is_start && report) {
+        if (!is_start) {
             reporter.report(4050, "reference " + text(reference) + " is not the first texel of an element",
                             place);
         }
-        if (k > 0 && reference <= previous && report) {
+        if (k > 0 && reference <= previous) {
             reporter.report(
                 4051, "reference " + text(reference) + " follows " + text(previous) + ", they must grow",
                 place);
@@ -199,17 +207,21 @@ void check_grid(const PackedTextures& textures, const PathDetail& detail, const 
                 Reporter& reporter) {
     const GridView grid{textures, textures.grid_width, textures.grid_height};
     std::vector<bool> covered(grid.references(), false);
-    std::unordered_set<std::uint32_t> lists;  // first reference and count in one word
+    std::unordered_map<std::uint32_t, ListTraits> lists;  // first reference and count in one word
     for (int j = 0; j < grid.rows; ++j) {
         for (int i = 0; i < grid.cols; ++i) {
             const CellCode c = grid.at(i, j);
             const std::string place = cell_place(i, j);
             check_cell(grid, c, place, reporter);
             if (c.count == 0 || !grid.list_inside(c)) continue;
-            std::fill_n(covered.begin() + c.first_reference, c.count, true);
-            // A list that several cells share is reported once, its flags for every cell.
-            const bool first = lists.insert(c.first_reference << BURIN_CELL_COUNT_BITS | c.count).second;
-            check_flags(c, check_list(grid, c, data, first, place, reporter), data, place, reporter);
+            // A list that many cells share is read and reported once.
+            const auto [known, first] =
+                lists.try_emplace(c.first_reference << BURIN_CELL_COUNT_BITS | c.count);
+            if (first) {
+                std::fill_n(covered.begin() + c.first_reference, c.count, true);
+                known->second = traits_of(check_list(grid, c, data, place, reporter), data);
+            }
+            check_flags(c, known->second, place, reporter);
         }
     }
     check_unlisted(grid, covered, reporter);

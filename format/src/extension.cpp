@@ -19,6 +19,8 @@ std::string value_text(const json& value) {
     return value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 40);
 }
 
+bool is_length(double metres) { return metres >= BURIN_MIN_LENGTH && metres <= BURIN_MAX_LENGTH; }
+
 // Looks up one property; reports a missing required one.
 const json* find_property(const json& object, const char* name, bool required, const std::string& path,
                           Reporter& reporter) {
@@ -81,10 +83,10 @@ void read_size(const json& extension, PathDetail& detail, Reporter& reporter) {
     }
     detail.size_u = (*size)[0].get<double>();
     detail.size_v = (*size)[1].get<double>();
-    if (!(detail.size_u > 0.0) || !(detail.size_v > 0.0)) {
+    if (!is_length(detail.size_u) || !is_length(detail.size_v)) {
         reporter.report(2007,
                         "size is [" + number_text(detail.size_u) + ", " + number_text(detail.size_v) +
-                            "], both must be greater than 0",
+                            "], both must be lengths from 1e-9 to 1e9 m",
                         "/size");
     }
 }
@@ -94,8 +96,10 @@ void read_heights(const json& extension, PathDetail& detail, Reporter& reporter)
     const bool have_base = read_number(extension, "baseOffset", false, detail.base_offset, reporter);
     const bool have_outer = read_number(extension, "outerLevel", false, detail.outer_level, reporter);
     if (!have_depth) return;
-    if (!(detail.depth > 0.0)) {
-        reporter.report(2008, "depth is " + number_text(detail.depth) + ", must be greater than 0", "/depth");
+    if (!is_length(detail.depth)) {
+        reporter.report(2008,
+                        "depth is " + number_text(detail.depth) + ", a length from 1e-9 to 1e9 m is needed",
+                        "/depth");
         return;
     }
     if (!have_base) return;

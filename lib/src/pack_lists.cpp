@@ -49,12 +49,14 @@ std::vector<ReferenceList> maximal_lists(std::vector<ReferenceList> lists) {
 // whose beginnings are in sorted order, so that those with a given beginning are neighbours.
 class Chain {
   public:
-    explicit Chain(const std::vector<ReferenceList>& sorted) : lists_(sorted), used_(sorted.size(), false) {}
+    explicit Chain(const std::vector<ReferenceList>& sorted) : lists_(sorted), next_(sorted.size() + 1) {
+        std::iota(next_.begin(), next_.end(), std::size_t{0});
+    }
 
     std::vector<std::uint16_t> join() {
         std::vector<std::uint16_t> sequence;
         for (std::size_t start = 0; start < lists_.size(); ++start) {
-            if (used_[start]) continue;
+            if (unused_from(start) != start) continue;
             append(sequence, start, 0);
             std::size_t next = 0, overlap = 0;
             while ((overlap = best_continuation(sequence, next)) > 0) append(sequence, next, overlap);
@@ -64,25 +66,29 @@ class Chain {
 
   private:
     void append(std::vector<std::uint16_t>& sequence, std::size_t index, std::size_t overlap) {
-        used_[index] = true;
+        next_[index] = index + 1;
         longest_ = std::max(longest_, lists_[index].size());
         sequence.insert(sequence.end(), lists_[index].begin() + static_cast<std::ptrdiff_t>(overlap),
                         lists_[index].end());
     }
 
     // Length of the longest end of `sequence` that an unused list begins with; that list in `index`. 0: none.
-    std::size_t best_continuation(const std::vector<std::uint16_t>& sequence, std::size_t& index) const {
+    std::size_t best_continuation(const std::vector<std::uint16_t>& sequence, std::size_t& index) {
         for (std::size_t length = std::min(longest_, sequence.size()); length > 0; --length) {
             const ReferenceList tail(sequence.end() - static_cast<std::ptrdiff_t>(length), sequence.end());
-            auto candidate = std::lower_bound(lists_.begin(), lists_.end(), tail);
-            for (; candidate != lists_.end() && begins_with(*candidate, tail); ++candidate) {
-                const auto at = static_cast<std::size_t>(candidate - lists_.begin());
-                if (used_[at]) continue;
-                index = at;
-                return length;
-            }
+            const auto first = std::lower_bound(lists_.begin(), lists_.end(), tail);
+            const std::size_t at = unused_from(static_cast<std::size_t>(first - lists_.begin()));
+            if (at == lists_.size() || !begins_with(lists_[at], tail)) continue;
+            index = at;
+            return length;
         }
         return 0;
+    }
+
+    // First unused list at or after `index`; shortens the way for the next question.
+    std::size_t unused_from(std::size_t index) {
+        while (next_[index] != index) index = next_[index] = next_[next_[index]];
+        return index;
     }
 
     static bool begins_with(const ReferenceList& list, const ReferenceList& head) {
@@ -90,7 +96,7 @@ class Chain {
     }
 
     const std::vector<ReferenceList>& lists_;
-    std::vector<bool> used_;
+    std::vector<std::size_t> next_;  // itself where unused, else some list after it; one more entry as end
     std::size_t longest_ = 0;
 };
 

@@ -186,6 +186,16 @@ Result<UnpackedPattern> unpack_textures(const PackedTextures& textures, const Pa
     if (!(detail.depth > 0.0) || !(detail.size_u > 0.0) || !(detail.size_v > 0.0)) {
         return Error{ErrorCode::invalid_input, "depth and size must be greater than 0"};
     }
+    // Lists are shared in the file and written out here, so a small file could ask for much memory.
+    std::uint64_t references = 0;
+    for (std::size_t k = 0; k < textures.grid.size(); k += 2) {
+        references += unpack_cell({textures.grid[k], textures.grid[k + 1]}).count;
+    }
+    if (references > kMaxUnpackedReferences) {
+        return Error{ErrorCode::limit_exceeded, "the cells list " + std::to_string(references) +
+                                                    " elements in all, limit " +
+                                                    std::to_string(kMaxUnpackedReferences)};
+    }
     return Unpacker(textures, detail).run();
 }
 

@@ -377,6 +377,30 @@ TEST(Pack, DataTextureWastesLittle) {
     }
 }
 
+TEST(Unpack, SharedListsCannotAskForAllMemory) {
+    ResolvedPattern pattern;
+    pattern.materials = {Material{}};
+    pattern.profiles = {{{{-0.2, 0.0}, {0.0, -0.005}, {0.2, 0.0}}, 3u}};
+    pattern.styles = {{0, 0, 0.0, false}};
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < 63; ++i) {
+        pattern.elements.push_back(line({0.1, i / 63.0}, {0.9, i / 63.0}, hip(), hip(), 0));
+        all.push_back(i);
+    }
+    CellGrid grid = empty_grid(1, 1);
+    set_lists(grid, {all});
+    Result<PackedTextures> packed = pack_textures(pattern, grid);
+    ASSERT_TRUE(packed.ok()) << packed.error().message;
+    // The one cell's texel over and over: 10 MB that would unpack to 330 MB.
+    packed->grid_width = packed->grid_height = 1150;
+    const CellTexel cell = cell_texel(*packed, 0);
+    packed->grid.clear();
+    for (int k = 0; k < 1150 * 1150; ++k) packed->grid.insert(packed->grid.end(), cell.begin(), cell.end());
+    const Result<UnpackedPattern> back = unpack_textures(*packed, describe_pattern(pattern, *packed));
+    ASSERT_FALSE(back.ok());
+    EXPECT_EQ(back.error().code, ErrorCode::limit_exceeded) << back.error().message;
+}
+
 TEST(Unpack, RefusesWhatTheValidatorRefuses) {
     const Made made = make_pattern();
     Result<PackedTextures> packed = pack_textures(made.pattern, made.grid);

@@ -47,6 +47,9 @@ Result<PackedTextures> pack_textures(const ResolvedPattern& pattern, const CellG
 // The extension's properties for these textures; the bufferView indices are left at -1.
 PathDetail describe_pattern(const ResolvedPattern& pattern, const PackedTextures& textures);
 
+// Bounds the memory of unpack_textures: sum of all cells' counts.
+inline constexpr std::uint64_t kMaxUnpackedReferences = std::uint64_t{1} << 26;
+
 struct UnpackedPattern {
     ResolvedPattern pattern;  // junctions are not stored in the textures and stay empty
     CellGrid grid;
