@@ -32,6 +32,7 @@ Result<Model> checked(Result<ModelData> data) {
 }  // namespace
 
 Result<Model> read_model_bytes(std::span<const std::uint8_t> bytes, const std::string& base_folder) {
+    if (bytes.empty()) return Error{ErrorCode::invalid_input, "the file is empty"};
     if (looks_like_gltf(bytes)) return checked(load_document(bytes, base_folder));
     return checked(read_obj(bytes));
 }

@@ -1,0 +1,242 @@
+#include <burin/bake.hpp>
+#include <burin/format/validate.hpp>
+#include <burin/image_io.hpp>
+#include <burin/model.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+// An independent reader of what is written here.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#include <tiny_gltf.h>
+
+#include "temporary_folder.hpp"
+
+namespace burin {
+namespace {
+
+using Json = nlohmann::json;
+using Bytes = std::vector<std::uint8_t>;
+
+// The smallest textures: one empty cell, one material.
+PackedTextures small_textures() {
+    PackedTextures t;
+    t.grid_width = t.grid_height = t.data_width = t.data_height = 1;
+    t.grid = {0, 0xffffffffu};
+    t.data = {0, 0, 0, 0};
+    t.sections.material_texels = 1;
+    return t;
+}
+
+PathDetail small_detail() {
+    PathDetail d;
+    d.grid_width = d.grid_height = d.data_width = d.data_height = 1;
+    d.sections.material_texels = 1;
+    return d;
+}
+
+Fallback small_fallback() {
+    Fallback f;
+    f.normal = {2, 2, {}};
+    f.occlusion = {2, 2, {}};
+    for (int i = 0; i < 4; ++i) {
+        f.normal.texels.insert(f.normal.texels.end(), {128, static_cast<std::uint8_t>(100 + i), 255, 255});
+        f.occlusion.texels.insert(f.occlusion.texels.end(), {200, 200, 200, 255});
+    }
+    return f;
+}
+
+Json json_of(const Bytes& glb) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, glb.data() + 12, 4);
+    return Json::parse(glb.begin() + 20, glb.begin() + 20 + size);
+}
+
+Bytes view_bytes(const Bytes& glb, const Json& document, std::size_t view) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, glb.data() + 12, 4);
+    const Json& v = document["bufferViews"][view];
+    const auto begin = glb.begin() + 28 + size + v.value("byteOffset", 0);
+    return {begin, begin + v["byteLength"].get<int>()};
+}
+
+Bytes attach(const Model& model, const AttachOptions& options = {}, const PathDetail& detail = small_detail()) {
+    auto glb = write_glb(model, small_textures(), detail, small_fallback(), options);
+    EXPECT_TRUE(glb.ok()) << (glb.ok() ? "" : glb.error().message);
+    return glb.ok() ? *glb : Bytes{};
+}
+
+bool decode_nothing(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; }
+
+TEST(Gltf, AnIndependentReaderSeesTheWholePlane) {
+    const Bytes glb = attach(make_plane({1, 2}));
+    tinygltf::TinyGLTF loader;
+    loader.SetImageLoader(decode_nothing, nullptr);
+    tinygltf::Model model;
+    std::string error, warning;
+    ASSERT_TRUE(loader.LoadBinaryFromMemory(&model, &error, &warning, glb.data(), static_cast<unsigned>(glb.size()))) << error;
+    EXPECT_EQ(error, "");
+    ASSERT_EQ(model.materials.size(), 1u);
+    EXPECT_EQ(model.extensionsUsed, std::vector<std::string>{std::string(kPathDetailExtension)});
+    EXPECT_TRUE(model.extensionsRequired.empty());
+    EXPECT_EQ(model.materials[0].extensions.count(std::string(kPathDetailExtension)), 1u);
+    const int normal = model.materials[0].normalTexture.index;
+    ASSERT_GE(normal, 0);
+    EXPECT_EQ(model.samplers[static_cast<std::size_t>(model.textures[static_cast<std::size_t>(normal)].sampler)].wrapS, 10497);
+    EXPECT_GE(model.materials[0].occlusionTexture.index, 0);
+    for (const char* name : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0"})
+        EXPECT_EQ(model.meshes[0].primitives[0].attributes.count(name), 1u) << name;
+}
+
+TEST(Gltf, TexturesComeBackWordForWord) {
+    PackedTextures textures = small_textures();
+    textures.grid_width = 3;
+    textures.grid = {0, 0xffffffffu, 0, 0xffffffffu, 0, 0xffffffffu};
+    PathDetail detail = small_detail();
+    detail.grid_width = 3;
+    detail.size_u = 0.3;
+    detail.repeat = false;
+    const auto glb = write_glb(make_plane({1, 1}), textures, detail, small_fallback());
+    ASSERT_TRUE(glb.ok()) << glb.error().message;
+    const auto asset = read_asset(*glb);
+    ASSERT_TRUE(asset.ok()) << asset.error().message;
+    const MaterialInfo& info = asset->materials[0];
+    ASSERT_TRUE(info.has_detail);
+    EXPECT_EQ(info.textures.grid, textures.grid);
+    EXPECT_EQ(info.textures.data, textures.data);
+    EXPECT_EQ(info.textures.sections.material_texels, 1u);
+    EXPECT_EQ(info.detail.size_u, 0.3);
+    EXPECT_FALSE(info.detail.repeat);
+    const Json document = json_of(*glb);
+    EXPECT_EQ(document["samplers"][0]["wrapS"], 33071);
+    for (const Json& view : document["bufferViews"]) EXPECT_EQ(view.value("byteOffset", 0) % 4, 0);
+    EXPECT_EQ(glb->size() % 4, 0u);
+}
+
+TEST(Gltf, OwnValidatorFindsNothing) {
+    const Bytes glb = attach(make_plane({1, 1}));
+    validate_glb(glb, [](const Issue& issue) {
+        EXPECT_NE(issue.severity, Severity::error) << issue.number << " " << issue.message << " " << issue.pointer;
+    });
+}
+
+TEST(Gltf, EqualInputGivesEqualBytes) { EXPECT_EQ(attach(make_plane({1, 1})), attach(make_plane({1, 1}))); }
+
+// A document with a bit of everything that burin does not know, in three buffers.
+Json rich_document() {
+    return Json::parse(R"({"asset":{"version":"2.0","generator":"a tool","copyright":"someone","extras":{"k":1}},
+        "extensionsUsed":["KHR_lights_punctual","VENDOR_thing"],
+        "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}},
+        "scene":0,"scenes":[{"name":"s","nodes":[0,1]}],
+        "nodes":[{"mesh":0,"name":"body","extras":[1,2]},{"camera":0,"extensions":{"KHR_lights_punctual":{"light":0}}}],
+        "cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.01}}],
+        "animations":[{"name":"spin","channels":[{"sampler":0,"target":{"node":0,"path":"scale"}}],"samplers":[{"input":2,"output":3}]}],
+        "meshes":[{"name":"m","primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1,"_CUSTOM":1},"material":0}]}],
+        "materials":[{"name":"skin","extras":"note","normalTexture":{"index":0,"scale":0.5},
+                      "extensions":{"VENDOR_thing":{"a":[1.5,true,null]}}}],
+        "textures":[{"source":0}],
+        "images":[{"uri":"data:image/png;base64,iVBORw0KGgo="}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+                     {"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"},
+                     {"bufferView":2,"componentType":5126,"count":1,"type":"SCALAR","min":[0],"max":[0]},
+                     {"bufferView":3,"componentType":5126,"count":1,"type":"VEC3"}],
+        "bufferViews":[{"buffer":0,"byteLength":36},{"buffer":1,"byteLength":24},{"buffer":2,"byteLength":4},
+                       {"buffer":2,"byteOffset":4,"byteLength":12,"name":"scales"}],
+        "buffers":[{"byteLength":36,"name":"first","uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"},
+                   {"byteLength":24,"name":"second","uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"},
+                   {"byteLength":16,"uri":"data:application/octet-stream;base64,AAAAAAAAgD8AAIA/AACAPw=="}]})");
+}
+
+TEST(Gltf, NothingOfTheModelIsLost) {
+    const Json before = rich_document();
+    const std::string text = before.dump();
+    const auto model = read_model_bytes(Bytes(text.begin(), text.end()), "");
+    ASSERT_TRUE(model.ok()) << model.error().message;
+    const Bytes glb = attach(*model);
+    const Json after = json_of(glb);
+    for (const char* key : {"asset", "extensions", "scene", "scenes", "nodes", "cameras", "animations", "meshes", "accessors"})
+        EXPECT_EQ(after[key], before[key]) << key;
+    EXPECT_EQ(after["extensionsUsed"], (Json{"KHR_lights_punctual", "VENDOR_thing", kPathDetailExtension}));
+    EXPECT_EQ(after["materials"][0]["extensions"]["VENDOR_thing"], before["materials"][0]["extensions"]["VENDOR_thing"]);
+    // The normal texture gave way, and is told.
+    EXPECT_EQ(after["materials"][0]["extras"]["burin_replaced_normal_texture"], before["materials"][0]["normalTexture"]);
+    EXPECT_EQ(after["materials"][0]["extras"]["value"], "note");
+    EXPECT_NE(after["materials"][0]["normalTexture"]["index"], 0);
+    EXPECT_EQ(after["textures"][0], before["textures"][0]);
+    EXPECT_EQ(view_bytes(glb, after, after["images"][0]["bufferView"]).size(), 8u);
+    ASSERT_EQ(after["buffers"].size(), 1u);
+    EXPECT_EQ(after["buffers"][0]["name"], "first");
+    EXPECT_EQ(after["buffers"][0]["extras"]["burin_merged_buffers"][0]["name"], "second");
+    const Bytes scales = view_bytes(glb, after, 3);
+    EXPECT_EQ(scales, (Bytes{0, 0, 128, 63, 0, 0, 128, 63, 0, 0, 128, 63}));
+    EXPECT_EQ(after["bufferViews"][3]["name"], "scales");
+    const auto target = find_material(*model);
+    ASSERT_TRUE(target.ok());
+    EXPECT_TRUE(target->replaces_normal_texture);
+}
+
+TEST(Gltf, AttachingAgainReplacesThePattern) {
+    const Bytes once = attach(make_plane({1, 1}));
+    const auto model = read_model_bytes(once, "");
+    ASSERT_TRUE(model.ok()) << model.error().message;
+    PathDetail other = small_detail();
+    other.depth = 0.25;
+    const Bytes twice = attach(*model, {}, other);
+    const auto asset = read_asset(twice);
+    ASSERT_TRUE(asset.ok());
+    EXPECT_EQ(asset->materials[0].detail.depth, 0.25);
+    const Json document = json_of(twice);
+    EXPECT_EQ(document["extensionsUsed"].size(), 1u);
+    // The first fallback was no normal texture of the model's own.
+    EXPECT_FALSE(document["materials"][0].contains("extras"));
+}
+
+TEST(Gltf, OtherMaterialsAndUvSetsStayAsTheyAre) {
+    Json document = rich_document();
+    document["meshes"][0]["primitives"].push_back(document["meshes"][0]["primitives"][0]);
+    document["meshes"][0]["primitives"][1].erase("material");
+    document["meshes"][0]["primitives"][1]["attributes"]["TEXCOORD_1"] = 1;
+    const std::string text = document.dump();
+    const auto model = read_model_bytes(Bytes(text.begin(), text.end()), "");
+    ASSERT_TRUE(model.ok()) << model.error().message;
+    EXPECT_FALSE(find_material(*model).ok());
+    const Json after = json_of(attach(*model, {.material = "default", .tex_coord = 1}));
+    EXPECT_EQ(after["materials"][0], document["materials"][0]);
+    ASSERT_EQ(after["materials"].size(), 2u);
+    EXPECT_EQ(after["meshes"][0]["primitives"][1]["material"], 1);
+    EXPECT_EQ(after["materials"][1]["normalTexture"]["texCoord"], 1);
+    EXPECT_EQ(after["materials"][1]["extensions"][std::string(kPathDetailExtension)]["texCoord"], 1);
+}
+
+TEST(Gltf, AConstantMapNeedsNoFallback) {
+    const auto glb = write_glb(make_plane({1, 1}), small_textures(), small_detail(), Fallback{});
+    ASSERT_TRUE(glb.ok());
+    const Json document = json_of(*glb);
+    EXPECT_FALSE(document.contains("images"));
+    EXPECT_FALSE(document["materials"][0].contains("normalTexture"));
+}
+
+TEST(Gltf, DamagedPatternsAreErrorsNotCrashes) {
+    const Bytes glb = attach(make_plane({1, 1}));
+    const struct {
+        const char *from, *to;
+    } changes[] = {{"\"bufferView\":5", "\"bufferView\":9"},
+                   {"\"version\":1", "\"version\":9"},
+                   {"\"wrap\":\"repeat\"", "\"wrap\":\"repeal\""},
+                   {"\"depth\":0.01", "\"depth\":-1.1"}};
+    for (const auto& change : changes) {
+        std::string text(glb.begin(), glb.end());
+        const auto at = text.find(change.from);
+        if (at == std::string::npos) continue;  // another way to write the same number
+        text.replace(at, std::strlen(change.from), change.to);
+        const auto asset = read_asset(Bytes(text.begin(), text.end()));
+        EXPECT_FALSE(asset.ok()) << change.to;
+    }
+}
+
+}  // namespace
+}  // namespace burin
