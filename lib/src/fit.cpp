@@ -40,21 +40,6 @@ Distinct distinct_points(std::span<const Vec2> points, const FitOptions& options
     return out;
 }
 
-// Where a closed row is best cut: at its sharpest turn, seen over a few points on either side.
-std::size_t sharpest_point(const std::vector<Vec2>& p, Vec2 period) {
-    const std::size_t n = p.size();
-    const std::size_t reach = std::max<std::size_t>(1, std::min<std::size_t>(4, n / 4));
-    const auto at = [&](std::size_t i) { return i < n ? p[i] : p[i - n] + period; };
-    std::size_t best = 0;
-    double least = 2.0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Vec2 here = at(i + reach);
-        const double straight = dot(unit(here - at(i)), unit(at((i + reach) % n + reach) - at((i + reach) % n)));
-        if (straight < least - 1e-9) least = straight, best = (i + reach) % n;
-    }
-    return best;
-}
-
 // The row from `start` on, once around.
 Distinct rotated(const Distinct& row, std::size_t start, Vec2 period) {
     Distinct out = row;
@@ -199,7 +184,9 @@ Result<FitResult> fit_curve(std::span<const Vec2> points, const FitOptions& opti
                                                    " different points, at least 2 are needed"};
     std::size_t start = 0;
     if (options.closed) {
-        start = sharpest_point(row.points, options.period);
+        start = static_cast<std::size_t>(
+            fit::seam_of(Points(row.points, row.weights, true, options.period), options));
+        start %= row.points.size();
         std::vector<std::size_t> source = std::move(row.source);
         row = rotated(row, start, options.period);
         row.source = std::move(source);

@@ -84,19 +84,22 @@ PointRange line_range(const Chain& chain, const Points& points, long k, double c
 
 double closest_parameter(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess) {
     // B(t) = p0 + 2 t d + t^2 a; Newton on (B - p) . B', which has one root near the guess for points within a radius
-    // of curvature.
+    // of curvature. Where that is not convex, the step is bounded by leaving out the second derivative (Gauss-Newton).
     const Vec2 d = p1 - p0;
     const Vec2 a = p2 - p1 - d;
     double t = guess;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 12; ++i) {
         const Vec2 offset = p0 + d * (2.0 * t) + a * (t * t) - p;
         const Vec2 slope = (d + a * t) * 2.0;
-        const double f = dot(offset, slope);
-        const double g = std::max(dot(slope, slope) + 2.0 * dot(offset, a), 0.25 * dot(slope, slope));
+        const double speed = dot(slope, slope);
+        const double g = std::max(speed + 2.0 * dot(offset, a), 0.5 * speed);
         if (!(g > 0.0)) break;
-        t = std::clamp(t - f / g, -0.1, 1.1);
+        const double next = std::clamp(t - dot(offset, slope) / g, 0.0, 1.0);
+        const double moved = std::abs(next - t);
+        t = next;
+        if (moved < 1e-3) break;  // the foot is then right to second order, far below any tolerance
     }
-    return std::clamp(t, 0.0, 1.0);
+    return t;
 }
 
 static PieceError error_of(const ErrorTally& tally) {
@@ -148,6 +151,15 @@ long border_index(const Points& points, Vec2 joint, Vec2 t, long guess, long low
     return i;
 }
 
+// Index in [low, high], not far from `guess`, of the point nearest to a corner.
+long nearest_index(const Points& points, Vec2 corner, long guess, long low, long high) {
+    constexpr long kWindow = 12;
+    long best = std::clamp(guess, low, high);
+    for (long i = std::max(low, guess - kWindow); i < std::min(high, guess + kWindow); ++i)
+        if (length(points[i] - corner) < length(points[best] - corner)) best = i;
+    return best;
+}
+
 // Next fixed border after vertex k's own two, as far as the points of the pieces reach.
 struct Limits {
     long low;
@@ -158,8 +170,11 @@ void assign_vertex(Chain& chain, const Points& points, long k, Limits limits) {
     const long lap = chain.turn * chain.turns(k);
     Vertex& vertex = chain.at(k);
     if (vertex.corner) {
-        const Vec2 t = unit(direction_in(chain, k) + direction_out(chain, k));
-        const long i = border_index(points, chain.position(k), t, chain.begin(k), limits.low, limits.high);
+        const Vec2 in = direction_in(chain, k), out = direction_out(chain, k);
+        // In a hairpin the bisector says nothing: there the nearest point is the border. 0.85: turns above 150 degrees.
+        const long i = dot(in, out) > -0.85
+                           ? border_index(points, chain.position(k), unit(in + out), chain.begin(k), limits.low, limits.high)
+                           : nearest_index(points, chain.position(k), chain.begin(k), limits.low, limits.high);
         vertex.begin = vertex.end = i - lap;
         return;
     }

@@ -132,6 +132,9 @@ double closest_parameter(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess);
 // Moves the borders between the pieces' points to where the joints now are.
 void assign_points(Chain& chain, const Points& points, Window window);
 
+// Where a closed row is best cut: in the middle of its longest straight span, away from anything that matters.
+long seam_of(const Points& points, const FitOptions& options);
+
 // Dynamic programme: the cheapest chain over the candidate breakpoints (fit_segment.cpp).
 Chain segment_points(const Points& points, const FitOptions& options);
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "fit_chain.hpp"
 
@@ -32,6 +33,12 @@ constexpr long kNear = 3;            // candidate ends tried next to the start, 
 // is what stands beside a line or a corner.
 enum class Kind { line, between, alone };
 
+// How far the points left out at a piece's ends lie off it, at most: what a raster rounds off, or a bend that a corner
+// would hide.
+struct Ends {
+    double first = 0.0, last = 0.0;
+};
+
 struct Piece {
     long a = 0, b = 0;  // candidate numbers
     bool quadratic = false;
@@ -39,6 +46,7 @@ struct Piece {
     double length = 0.0;
     Vec2 start, control, end;
     Vec2 direction_in, direction_out;  // at its start, at its end
+    Ends ends;
     // Dynamic programme.
     double best = kNever;
     long previous = -1;
@@ -151,17 +159,13 @@ struct Samples {
     }
 };
 
-// What the points left out at a piece's ends tell: on a raster's corner they lie up to about a fifth of a texel off the
-// sides, on a bend much further. Gives a cost in elements.
 template <typename Distance>
-double cost_of_ends(const Points& points, const FitOptions& options, long first, long last, const Distance& distance) {
-    if (options.corner_reach == 0.0) return 0.0;
+Ends ends_of(const Points& points, const FitOptions& options, long first, long last, const Distance& distance) {
+    Ends ends;
     const PointRange core = core_of(points, first, last, options.corner_reach);
-    double most = 0.0;
-    for (long i = first; i < core.begin; ++i) most = std::max(most, distance(points[i]));
-    for (long i = core.end; i <= last; ++i) most = std::max(most, distance(points[i]));
-    const double over = std::max(0.0, most - options.tolerance) / (0.3 * options.corner_reach);
-    return 0.25 * over * over;
+    for (long i = first; i < core.begin; ++i) ends.first = std::max(ends.first, distance(points[i]));
+    for (long i = core.end; i <= last; ++i) ends.last = std::max(ends.last, distance(points[i]));
+    return ends;
 }
 
 // Solves the symmetric system of N unknowns in place; false when it is singular.
@@ -282,8 +286,8 @@ bool fit_line(const Points& points, const FitOptions& options, long first, long 
     piece.control = (piece.start + piece.end) * 0.5;
     piece.direction_in = piece.direction_out = t;
     const double mean_square = tally.sum_of_squares / std::max<double>(1.0, static_cast<double>(s.count));
-    piece.cost = piece_cost(kLineCost, {0.0, mean_square}, options.tolerance) +
-                 cost_of_ends(points, options, first, last, [&](Vec2 p) { return std::abs(cross(t, p - centre)); });
+    piece.cost = piece_cost(kLineCost, {0.0, mean_square}, options.tolerance);
+    piece.ends = ends_of(points, options, first, last, [&](Vec2 p) { return std::abs(cross(t, p - centre)); });
     return tally.finish() <= options.tolerance;
 }
 
@@ -306,6 +310,11 @@ bool fit_quadratic(const Points& points, const FitOptions& options, double reach
     piece.start = c[0], piece.control = c[1], piece.end = c[2];
     piece.direction_in = in, piece.direction_out = out;
     piece.cost = piece_cost(kQuadraticCost, error, options.tolerance);
+    if (reach > 0.0)
+        piece.ends = ends_of(points, options, first, last, [&](Vec2 p) {
+            const double t = closest_parameter(c[0], c[1], c[2], p, dot(p - c[0], chord) > 0.5 * dot(chord, chord) ? 1.0 : 0.0);
+            return length(p - lerp(lerp(c[0], c[1], t), lerp(c[1], c[2], t), t));
+        });
     return true;
 }
 
@@ -428,7 +437,13 @@ class Segmenter {
     const Trial& trial(long a, long b, Kind kind);
     double joint_cost(const Piece& before, const Piece& after, bool& corner);
     bool smooth_about(long candidate, double turn);
+    double cost_of_left_out(double excess) const {
+        if (!(excess > 0.0) || options_.corner_reach == 0.0) return 0.0;
+        const double over = excess / (0.3 * options_.corner_reach);
+        return 0.5 * over * over;
+    }
     void relax(Piece& after);
+    void close(std::vector<Piece>& path);
 
     const Points& points_;
     const FitOptions& options_;
@@ -547,6 +562,8 @@ double Segmenter::joint_cost(const Piece& before, const Piece& after, bool& corn
     const double over = std::max(0.0, moved - 0.6);
     double smooth = 0.25 * moved * moved + 4.0 * over * over;
     if (!before.quadratic && !after.quadratic) smooth = kQuadraticCost + (gap / options_.tolerance);
+    const double left_out = std::max(before.ends.last, after.ends.first) - options_.tolerance;
+    smooth += cost_of_left_out(left_out);
     if (turn > 1.2) smooth = kNever;
     corner = false;
     if (turn < options_.corner_angle) return std::min(smooth, 6.0);
@@ -556,7 +573,10 @@ double Segmenter::joint_cost(const Piece& before, const Piece& after, bool& corn
     const double off = length(at - points_[candidates_[static_cast<std::size_t>(after.a)]]);
     const double allowed = corner_radius(in, out, options_.corner_reach) + 1.5 * options_.tolerance;
     const double far = std::max(0.0, off / std::max(allowed, 1e-9) - 1.0);
-    const double sharp = kCornerCost + far * far + (smooth_about(after.a, turn) ? 2.0 * kQuadraticCost : 0.0);
+    // The tip of a corner of inner angle a loses up to 0.5 cos(a / 2) texels on either side.
+    const double lost = 0.35 * options_.corner_reach * std::cos(0.5 * (std::numbers::pi - turn));
+    const double hairpin = turn > 2.8 ? kQuadraticCost : 0.0;
+    const double sharp = kCornerCost + hairpin + far * far + cost_of_left_out(left_out - lost) + (smooth_about(after.a, turn) ? 2.0 * kQuadraticCost : 0.0);
     corner = sharp < smooth;
     return std::min({sharp, smooth, 6.0});
 }
@@ -595,8 +615,36 @@ std::vector<Piece> Segmenter::run() {
         piece.a = candidates_[static_cast<std::size_t>(piece.a)];
         piece.b = candidates_[static_cast<std::size_t>(piece.b)];
     }
-    if (points_.closed) joint_cost(path.back(), path.front(), path.front().corner);
+    if (points_.closed) close(path);
     return path;
+}
+
+// The row of a closed curve begins somewhere within a piece, which the programme has cut in two.
+void Segmenter::close(std::vector<Piece>& path) {
+    Piece& first = path.front();
+    Piece& last = path.back();
+    if (path.size() > 2 && first.quadratic == last.quadratic) {
+        Piece whole;
+        const long a = last.a - points_.count, b = first.b;
+        const bool good = first.quadratic ? fit_quadratic(points_, options_, options_.corner_reach, a, b, whole)
+                                          : fit_line(points_, options_, a, b, whole);
+        if (good) {
+            whole.a = a;
+            whole.b = b;
+            whole.length = length(whole.end - whole.start);
+            first = whole;
+            path.pop_back();
+            candidates_[0] = a;  // where a corner at the seam is looked for
+            smooth_[0] = {-1, -1, -1, -1};
+        }
+    }
+    Piece before = path.back();
+    before.start = before.start - points_.period;
+    before.end = before.end - points_.period;
+    path.front().a = 0;  // as a candidate number, for joint_cost
+    const long a = candidates_[0];
+    joint_cost(before, path.front(), path.front().corner);
+    path.front().a = a;
 }
 
 // --- from pieces to the control polygon ------------------------------------------------------------------------
@@ -721,6 +769,17 @@ bool one_line_fits(const Points& points, const FitOptions& options, long first, 
 bool one_quadratic_fits(const Points& points, const FitOptions& options, long first, long last) {
     Piece piece;
     return last > first && fit_quadratic(points, options, options.corner_reach, first, last, piece);
+}
+
+long seam_of(const Points& points, const FitOptions& options) {
+    const std::vector<long> vertices = candidates_of(points, 0.6 * options.tolerance);
+    long best = 0;
+    double most = -1.0;
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+        const double span = points.arc(vertices[i]) - points.arc(vertices[i - 1]);
+        if (span > most) most = span, best = (vertices[i] + vertices[i - 1]) / 2;
+    }
+    return best;
 }
 
 Chain segment_points(const Points& points, const FitOptions& options) {
