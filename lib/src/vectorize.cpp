@@ -19,8 +19,12 @@ namespace {
 
 using namespace vectorizing;
 
+// Regions that hold a smaller share of the map's sum of squares than this join a neighbour.
+constexpr double kLeastRegionShare = 4e-5;
+
 struct Traced {
-    std::vector<Chain> chains;
+    std::vector<Chain> lines, steps;
+    Image flattened;  // the map without the lines
     Regions regions;
 };
 
@@ -64,10 +68,11 @@ Traced trace_map(const Image& source, const Lattice& lattice, double noise, doub
                                line_energy(map, lattice, ChainKind::ridge, radius, noise);
     for (const bool first : {true, false}) {
         const ChainKind kind = first == grooves_first ? ChainKind::groove : ChainKind::ridge;
-        for (Chain& chain : trace_lines(map, lattice, kind, radius, noise, energy)) traced.chains.push_back(std::move(chain));
+        for (Chain& chain : trace_lines(map, lattice, kind, radius, noise, energy)) traced.lines.push_back(std::move(chain));
     }
-    traced.regions = segment_regions(map, lattice, noise, energy);
-    for (Chain& chain : trace_steps(map, lattice, traced.regions)) traced.chains.push_back(std::move(chain));
+    traced.flattened = std::move(map);
+    traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy);
+    traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
     return traced;
 }
 
@@ -187,6 +192,36 @@ std::size_t count_elements(const std::vector<FittedChain>& chains) {
     std::size_t sum = 0;
     for (const FittedChain& fitted : chains) sum += fitted.elements.size();
     return sum;
+}
+
+std::vector<FittedChain> join(std::vector<FittedChain> a, std::vector<FittedChain> b) {
+    for (FittedChain& f : b) a.push_back(std::move(f));
+    return a;
+}
+
+// A curve that follows the grain of a ragged edge costs an element every few texels: first the fit is loosened, then
+// the least regions are given up, until the steps leave room for lines.
+std::vector<FittedChain> fit_within(Traced& traced, const Lattice& lattice, const VectorizeOptions& options,
+                                    std::size_t budget, Vectorized& result, int threads) {
+    const double energy = result.energy;
+    double share = kLeastRegionShare;
+    const double loosest = std::max(1.2, 0.0007 * std::min(lattice.width, lattice.height));
+    result.tolerance = options.tolerance > 0.0 ? options.tolerance : 0.3;
+    std::vector<FittedChain> lines = fit_chains(traced.lines, result.tolerance, threads);
+    std::vector<FittedChain> steps = fit_chains(traced.steps, result.tolerance, threads);
+    while (options.tolerance == 0.0 && count_elements(lines) + count_elements(steps) > budget &&
+           result.tolerance * 1.4 <= loosest) {
+        result.tolerance *= 1.4;
+        lines = fit_chains(traced.lines, result.tolerance, threads);
+        steps = fit_chains(traced.steps, result.tolerance, threads);
+    }
+    for (int round = 0; round < 16 && count_elements(steps) > budget * 3 / 4; ++round) {
+        share *= 2.0;
+        merge_regions(traced.flattened, lattice, result.noise, share * energy, traced.regions);
+        traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
+        steps = fit_chains(traced.steps, result.tolerance, threads);
+    }
+    return join(std::move(lines), std::move(steps));
 }
 
 // Lines that explain little per element go, the least useful first, until the rest is within the budget. Steps hold the
@@ -314,17 +349,12 @@ Result<Vectorized> vectorize_map(const HeightMap& source, const VectorizeOptions
     result.noise = estimate_noise(map, lattice);
     const double energy = total_energy(map, wrap);
     if (!proceed(0.05)) return stopped;
+    result.energy = energy;
     Traced traced = trace_map(map, lattice, result.noise, energy);
     if (!proceed(0.4)) return stopped;
 
-    // A curve that follows the grain of a ragged edge costs an element every few texels: loosen until it fits.
     const std::size_t budget = element_budget(lattice, options);
-    result.tolerance = options.tolerance > 0.0 ? options.tolerance : 0.3;
-    std::vector<FittedChain> fitted = fit_chains(traced.chains, result.tolerance, threads);
-    while (options.tolerance == 0.0 && count_elements(fitted) > budget && result.tolerance < 2.5) {
-        result.tolerance *= 1.35;
-        fitted = fit_chains(traced.chains, result.tolerance, threads);
-    }
+    std::vector<FittedChain> fitted = fit_within(traced, lattice, options, budget, result, threads);
     untangle_steps(fitted, lattice, result.tolerance);
     if (!proceed(0.6)) return stopped;
 

@@ -85,8 +85,10 @@ void extend_to_lines(std::vector<Chain>& chains, const Lattice& lattice);
 // Sum of squared responses: how much of the map is grooves (or ridges) narrower than twice `radius`.
 double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise);
 
-// Plateaus, and the step contours between them. Regions that hold less than a little of `energy` join a neighbour.
-Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double energy);
+// Plateaus, and the step contours between them. Regions whose sum of squares against a neighbour is below
+// `least_energy` join it; merge_regions does that with a greater one to regions that exist.
+Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double least_energy);
+void merge_regions(const Image& map, const Lattice& lattice, double noise, double least_energy, Regions& regions);
 std::vector<Chain> trace_steps(const Image& map, const Lattice& lattice, const Regions& regions);
 
 }  // namespace burin::vectorizing

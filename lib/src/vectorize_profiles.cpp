@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include <burin/fit.hpp>
 
@@ -278,6 +280,14 @@ void share_levels(Regions& regions, double closeness) {
     }
 }
 
+std::size_t count_step_kinds(const std::vector<FittedChain>& chains, const Regions& regions) {
+    std::set<std::pair<double, double>> kinds;
+    for (const FittedChain& f : chains)
+        if (f.chain.kind == ChainKind::step)
+            kinds.insert({regions.level[f.chain.left_region], regions.level[f.chain.right_region]});
+    return kinds.size();
+}
+
 double value_at(const Profile& profile, double b, bool& inside) {
     const auto& p = profile.points;
     inside = b >= p.front().b && b <= p.back().b;
@@ -309,7 +319,11 @@ void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, cons
 ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, const Lattice& lattice,
                             Regions& regions, const ProfileOptions& options) {
     settle_levels(regions, map, find_owners(chains, lattice, options.reach), options.reach);
-    share_levels(regions, std::max(2.0 * options.noise, 0.02));
+    // Every pair of levels needs a step profile of its own: with many regions there are fewer levels.
+    double closeness_of_levels = std::max(2.0 * options.noise, 0.02);
+    share_levels(regions, closeness_of_levels);
+    while (count_step_kinds(chains, regions) > options.most_profiles / 2 && closeness_of_levels < 0.3)
+        share_levels(regions, closeness_of_levels *= 1.4);
     // Between regions that came to one level there is no step, but there may be a line along their border.
     for (FittedChain& f : chains)
         if (f.chain.kind == ChainKind::step && regions.level[f.chain.left_region] == regions.level[f.chain.right_region])

@@ -260,18 +260,27 @@ bool merge_weak(const Image& map, const Lattice& lattice, Regions& regions, cons
     return true;
 }
 
+void merge_weak_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
+                        const std::vector<std::uint8_t>& flat, Regions& regions) {
+    const double least_jump = std::max(4.0 * noise, 0.02);
+    for (int round = 0; round < 200; ++round)
+        if (!merge_weak(map, lattice, regions, flat, least_jump, least_energy)) break;
+}
+
 }  // namespace
 
-Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double energy) {
+Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double least_energy) {
     const std::vector<std::uint8_t> flat = find_flat(map, lattice, noise);
     const Histogram histogram = make_histogram(map, flat);
     const std::vector<double> levels = choose_levels(histogram, kMostLevels);
     Regions regions = grow_regions(map, lattice, flat, levels.empty() ? std::vector<double>{0.5} : levels, 6);
     recompute_levels(map, regions, flat);
-    const double least_jump = std::max(4.0 * noise, 0.02);
-    for (int round = 0; round < 200; ++round)
-        if (!merge_weak(map, lattice, regions, flat, least_jump, 4e-5 * energy)) break;
+    merge_weak_regions(map, lattice, noise, least_energy, flat, regions);
     return regions;
+}
+
+void merge_regions(const Image& map, const Lattice& lattice, double noise, double least_energy, Regions& regions) {
+    merge_weak_regions(map, lattice, noise, least_energy, find_flat(map, lattice, noise), regions);
 }
 
 }  // namespace burin::vectorizing

@@ -31,8 +31,6 @@ struct VectorizeOptions {
     // Greatest distance of a fitted curve from the traced points, texels; 0 chooses it from the map's grain and the
     // byte budget. Range [0, 8].
     double tolerance = 0.0;
-    // Explained share below which a map counts as not path-like; range [0, 1].
-    double path_like_share = 0.35;
     // Elements the paths may have, 0: as many as keep the textures under 1/16 of the map's 8-bit size.
     int most_elements = 0;
     int threads = 0;  // 0: all cores; the result does not depend on it
@@ -41,9 +39,8 @@ struct VectorizeOptions {
 struct Vectorized {
     Pattern pattern;
     double noise = 0.0;               // standard deviation of the grain, of the map's range
+    double energy = 0.0;              // the map's detail: variance of HP(map) (DESIGN 7) times its texels
     double tolerance = 0.0;           // used for fitting, texels
-    double explained = 0.0;           // by the paths alone, before packing; DESIGN 7
-    bool path_like = true;
     double path_length_texels = 0.0;  // of all paths together
 };
 
