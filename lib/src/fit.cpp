@@ -151,6 +151,83 @@ void mark_corners(FitResult& result, const FitOptions& options) {
     }
 }
 
+// The oval of a loop of so few points that they have no shape to speak of: quadratics in the rectangle about them.
+Chain oval_of(const Points& points) {
+    Vec2 centre;
+    for (long i = 0; i < points.count; ++i) centre = centre + points[i] * (1.0 / static_cast<double>(points.count));
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (long i = 0; i < points.count; ++i) {
+        const Vec2 d = points[i] - centre;
+        xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
+    }
+    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    const Vec2 t{std::cos(angle), std::sin(angle)}, n = normal_of(t);
+    Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
+    double area = 0.0;
+    for (long i = 0; i < points.count; ++i) {
+        const Vec2 d = points[i] - centre, next = points[i + 1] - centre;
+        const Vec2 p{dot(d, t), dot(d, n)};
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+        area += cross(d, next);
+    }
+    // Never flatter than a tenth of its length, so that it stays a loop.
+    const double half = std::max(0.5 * (high.y - low.y), 0.05 * (high.x - low.x));
+    const Vec2 middle{0.5 * (low.x + high.x), 0.5 * (low.y + high.y)}, size{0.5 * (high.x - low.x), half};
+    Chain chain;
+    chain.closed = true;
+    chain.turn = points.count;
+    const auto corner_of = [&](int i) {
+        const int turned = (area >= 0.0 ? i : 7 - i) % 4;
+        const double x = turned == 0 || turned == 3 ? size.x : -size.x, y = turned < 2 ? size.y : -size.y;
+        return centre + t * (middle.x + x) + n * (middle.y + y);
+    };
+    // The first quadratic is the one that the row's first eighth turns around.
+    const Vec2 lead = lerp(points[0], points[1], points.count >= 8 ? 1.0 : static_cast<double>(points.count) / 8.0);
+    int first = 0;
+    for (const int i : {1, 2, 3})
+        if (length(corner_of(i) - lead) < length(corner_of(first) - lead) - 1e-9) first = i;
+    for (const int i : {0, 1, 2, 3}) {
+        fit::Vertex v;
+        v.v = corner_of(first + i);
+        v.begin = points.count * i / 4;
+        v.end = points.count * (i + 1) / 4;
+        v.s0 = v.s1 = 0.5;
+        chain.vertices.push_back(v);
+    }
+    return chain;
+}
+
+bool is_loop(const Points& points) { return points.closed && points.period == Vec2{}; }
+
+// A loop needs an inside: two curves, or three lines.
+bool has_inside(const Chain& chain) {
+    long curves = 0;
+    for (const fit::Vertex& v : chain.vertices) curves += v.corner ? 0 : 1;
+    return chain.elements() >= (curves > 0 ? 2 : 3);
+}
+
+Chain fit_points(const Points& points, const FitOptions& options) {
+    constexpr long kFewestOfLoop = 8;
+    if (is_loop(points) && points.count < kFewestOfLoop) return oval_of(points);
+    Chain best;
+    double least = 1e300;
+    // Where the structure found does not lead to a chain within the tolerance, a finer one may.
+    for (const double share : {1.0, 0.6, 0.35}) {
+        FitOptions finer = options;
+        finer.tolerance *= share;
+        Chain chain = fit::segment_points(points, finer);
+        fit::repair_chain(chain, points, options);
+        fit::simplify_chain(chain, points, options);
+        if (is_loop(points) && !has_inside(chain)) continue;
+        const double error = fit::judged_error(chain, points, options);
+        if (error < least) least = error, best = std::move(chain);
+        if (least <= options.tolerance) break;
+    }
+    if (best.vertices.empty()) return oval_of(points);
+    return least > 2.0 * options.tolerance ? fit::polyline_chain(points, options) : best;
+}
+
 void check_options(std::span<const Vec2> points, const FitOptions& options) {
     assert(options.tolerance > 0.0);
     assert(options.corner_angle > 0.0 && options.corner_angle < std::numbers::pi);
@@ -192,9 +269,7 @@ Result<FitResult> fit_curve(std::span<const Vec2> points, const FitOptions& opti
         row.source = std::move(source);
     }
     const Points all(std::move(row.points), std::move(row.weights), options.closed, options.period);
-    Chain chain = fit::segment_points(all, options);
-    fit::repair_chain(chain, all, options);
-    fit::simplify_chain(chain, all, options);
+    const Chain chain = fit_points(all, options);
     FitResult result = result_of(chain, all, options, {row.source, start, points.size()});
     weld(result, options);
     mark_corners(result, options);

@@ -30,6 +30,7 @@ class Points {
     // Index just past what the chain covers when it starts at 0: an open chain ends with its last point, a closed one
     // with the first point of the next turn.
     long end() const { return closed ? count : count - 1; }
+    long last() const { return closed ? 2 * count - 1 : count - 1; }  // largest index
 
   private:
     std::vector<Vec2> p_;
@@ -135,6 +136,9 @@ void assign_points(Chain& chain, const Points& points, Window window);
 // Where a closed row is best cut: in the middle of its longest straight span, away from anything that matters.
 long seam_of(const Points& points, const FitOptions& options);
 
+// The curve as nothing but lines and corners, through some of its points: within the tolerance whatever they are.
+Chain polyline_chain(const Points& points, const FitOptions& options);
+
 // Dynamic programme: the cheapest chain over the candidate breakpoints (fit_segment.cpp).
 Chain segment_points(const Points& points, const FitOptions& options);
 
@@ -150,6 +154,9 @@ enum class Aim { mean_square, largest };
 // Least squares over the polygon's vertices and joints (fit_refine.cpp). Returns the weighted sum of squares.
 double refine_chain(Chain& chain, const Points& points, const FitOptions& options, Window window, Aim aim,
                     int iterations);
+
+// Largest error of a chain, as it is held against the tolerance.
+double judged_error(const Chain& chain, const Points& points, const FitOptions& options);
 
 // Splits pieces until all are within tolerance, then removes what can go (fit_simplify.cpp).
 void repair_chain(Chain& chain, const Points& points, const FitOptions& options);

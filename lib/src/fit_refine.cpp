@@ -371,14 +371,21 @@ bool Refiner::strayed() const {
     return false;
 }
 
-// Quadratics whose control point does not lie between their ends, seen along the chord: their tangents run backwards.
+// Quadratics that have left the curve they stand for: their control point does not lie between their ends, seen along the
+// chord, so that a tangent runs backwards; or they turn by more than 140 degrees; or are far longer than their points.
 int Refiner::folded() const {
     int count = 0;
     for_each_piece([&](long k, bool is_quadratic) {
         if (!is_quadratic) return;
-        const Vec2 p0 = chain_.joint_in(k), chord = chain_.joint_out(k) - p0;
-        const double along = dot(chain_.position(k) - p0, chord), whole = dot(chord, chord);
-        if (!(along > 0.02 * whole && along < 0.98 * whole)) ++count;
+        const Vec2 p0 = chain_.joint_in(k), p2 = chain_.joint_out(k);
+        const Vec2 chord = p2 - p0, in = chain_.position(k) - p0, out = p2 - chain_.position(k);
+        const double along = dot(in, chord), whole = dot(chord, chord);
+        const double arms = length(in) + length(out);
+        const long first = chain_.begin(k), last = std::max(first, chain_.end(k) - 1);
+        const double row = points_.arc(std::min(last, points_.last())) - points_.arc(std::min(first, points_.last()));
+        const bool sound = along > 0.02 * whole && along < 0.98 * whole && dot(in, out) > -0.77 * length(in) * length(out) &&
+                           arms < 2.0 * row + 4.0 * std::max(options_.corner_reach, options_.tolerance);
+        if (!sound) ++count;
     });
     return count;
 }

@@ -763,12 +763,27 @@ Chain ChainBuilder::run() {
 
 bool one_line_fits(const Points& points, const FitOptions& options, long first, long last) {
     Piece piece;
-    return last > first && fit_line(points, options, first, last, piece);
+    return last - first < 2 || fit_line(points, options, first, last, piece);
 }
 
 bool one_quadratic_fits(const Points& points, const FitOptions& options, long first, long last) {
     Piece piece;
     return last > first && fit_quadratic(points, options, options.corner_reach, first, last, piece);
+}
+
+Chain polyline_chain(const Points& points, const FitOptions& options) {
+    Chain chain;
+    chain.closed = points.closed;
+    chain.period = points.period;
+    chain.turn = points.closed ? points.count : 0;
+    std::vector<long> vertices = candidates_of(points, 0.8 * options.tolerance);
+    if (points.closed) vertices.pop_back();
+    for (const long i : vertices) chain.vertices.push_back({points[i], true, i, i, true, 0.0, 1.0});
+    if (!points.closed) {
+        chain.vertices.back().line = false;
+        chain.vertices.back().begin = chain.vertices.back().end = points.count;
+    }
+    return chain;
 }
 
 long seam_of(const Points& points, const FitOptions& options) {

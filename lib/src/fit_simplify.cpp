@@ -176,6 +176,32 @@ std::optional<Chain> straighten(const Chain& chain, const Input& input, long k) 
     return next;
 }
 
+// A corner that turns less than a corner must: between two lines a quadratic rounds it; beside a quadratic the tangents
+// become one.
+std::optional<Chain> smooth_corner(const Chain& chain, const Input& input, long k) {
+    if (!chain.at(k).corner || (!chain.closed && (k == 0 || k == chain.size() - 1)) || chain.size() < 3) return {};
+    const Vec2 in = unit(chain.position(k) - chain.position(k - 1));
+    const Vec2 out = unit(chain.position(k + 1) - chain.position(k));
+    if (dot(in, out) < std::cos(input.options.corner_angle)) return {};
+    const Vec2 first = chain.joint_out(k - 1), last = chain.joint_in(k + 1), here = chain.position(k);
+    const bool line_before = chain.at(k - 1).line, line_after = chain.at(k).line;
+    Chain next = chain;
+    if (line_before && line_after) {
+        next.at(k).corner = false;
+        place_joints(next, k - 1, first, lerp(first, here, 0.7));
+        place_joints(next, k, lerp(here, last, 0.3), last);
+        return next;
+    }
+    next.at(k - 1).line = line_before || line_after;
+    const long border = chain.begin(k);
+    if (!chain.at(k - 1).corner && !line_before) next.at(k - 1).end = border - chain.turn * chain.turns(k - 1);
+    if (!chain.at(k + 1).corner && !line_after) next.at(k + 1).begin = border - chain.turn * chain.turns(k + 1);
+    next.vertices.erase(next.vertices.begin() + chain.wrap(k));
+    const long side = chain.wrap(k) == 0 ? next.size() - 1 : k - 1;
+    place_joints(next, side, line_before ? first : here, line_after ? last : here);
+    return next;
+}
+
 bool try_move(Chain& chain, const Points& points, const FitOptions& options, Move move, long k) {
     std::optional<Chain> next = move(chain, {points, options}, k);
     if (!next) return false;
@@ -255,10 +281,17 @@ void repair_chain(Chain& chain, const Points& points, const FitOptions& options)
     }
 }
 
+double judged_error(const Chain& chain, const Points& points, const FitOptions& options) {
+    double worst = 0.0;
+    for (long k = 0; k < chain.size(); ++k)
+        worst = std::max({worst, judged_line(chain, points, options, k), judged_quadratic(chain, points, options, k)});
+    return worst;
+}
+
 void simplify_chain(Chain& chain, const Points& points, const FitOptions& options) {
     for (int pass = 0; pass < 3; ++pass) {
         bool changed = false;
-        for (const Move move : {&straighten, &drop_line, &join_quadratics})
+        for (const Move move : {&straighten, &smooth_corner, &drop_line, &join_quadratics})
             for (long k = 0; k < chain.sides(); ++k)
                 while (k < chain.sides() && try_move(chain, points, options, move, k)) changed = true;
         if (!changed) return;

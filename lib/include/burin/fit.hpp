@@ -24,16 +24,19 @@
 namespace burin {
 
 struct FitOptions {
-    // Bound on the distance of every point to the curve, > 0. Three times the points' noise is a good value: less
-    // makes the curve follow noise, and the number of elements grows quickly.
+    // Bound on the distance of the points to the curve, > 0. Three times the points' noise is a good value: less makes
+    // the curve follow noise, and the number of elements grows quickly. A single point whose neighbours are within the
+    // bound is noise and not shape: it may err by half as much again.
     double tolerance = 0.15;
 
-    // Least turn of a corner, in (0, pi). A kink that turns less is bent into the neighbouring curves.
+    // Least turn of a corner, in (0, pi). A kink that turns less is bent into the neighbouring curves where the tolerance
+    // bears it. A turn that an arc within the tolerance explains as well is no corner, however sharp.
     double corner_angle = 0.45;
 
     // Points closer than this to a corner are not looked at, 0 or more: a raster rounds a right-angled corner within
     // about one texel of its tip. For a sharper corner of inner angle a the distance grows by the factor
-    // 1 / tan(a / 2), since the tip of a spike narrower than a texel is lost in the raster.
+    // 1 / tan(a / 2), up to 5, since the tip of a spike narrower than a texel is lost in the raster. 0 for points that
+    // are exact up to the corner.
     double corner_reach = 1.0;
 
     // The curve returns to its start: after the last point comes first point + `period`.
@@ -77,20 +80,22 @@ struct FitResult {
 // Requires (asserted): options in their ranges, weights empty or as many as points.
 //
 // Ensures:
-//   within_tolerance  max_error <= tolerance, unless the noise exceeds the tolerance so far that elements would get
-//                     shorter than about four points; then max_error says by how much
-//   few               a dynamic programme over all breakpoints that a fine polyline offers, then removal of every
-//                     joint that can go. A straight run is one line, whatever its direction; an arc of angle a and
-//                     radius r takes about a / (256 tolerance / r)^(1/4) quadratics
+//   within_tolerance  no two neighbouring points err by more than the tolerance and none by more than 1.5 times that,
+//                     unless detail is so fine that elements would get shorter than about five points (a zigzag of two
+//                     texels); then max_error says by how much
+//   few               a dynamic programme over the breakpoints that a fine polyline offers, then removal of every joint
+//                     that can go. A straight run is one line, whatever its direction; an arc of angle a and radius r
+//                     takes about a / (256 tolerance / r)^(1/4) quadratics
 //   smooth            at smooth joints the tangents agree within 1e-6 radian
 //   sharp             a corner lies where its two neighbours meet, not at a sample
 //   deterministic     equal input gives equal bytes
 //
-// Degenerate input: repeated points are merged. A single point, or points that all coincide, give invalid_input.
+// Degenerate input: repeated points are merged. A loop of fewer than 8 points becomes an oval of four quadratics; a loop
+// always keeps an inside (two curves or three lines at least).
 //
 // Fails with invalid_input when a coordinate is not finite or fewer than two different points remain.
 //
-// Time grows with points * log(points per element): about 2 microseconds a point. Safe to call from many threads.
+// Time grows with points; memory with points. Safe to call from many threads, one curve each.
 Result<FitResult> fit_curve(std::span<const Vec2> points, const FitOptions& options = {});
 
 // The point of an element at curve parameter t in [0, 1], and the derivative there.
