@@ -76,6 +76,49 @@ TEST(Specification, LimitsAreThoseOfTheLayout) {
     }
 }
 
+nlohmann::json schema(const std::string& part) {
+    return nlohmann::json::parse(read_text(
+        "BURIN_materials_path_detail/schema/material.BURIN_materials_path_detail" + part + ".schema.json"));
+}
+
+// Without a property that the schema requires the extension is refused, without any other one it is read.
+void expect_required(const nlohmann::json& extension, const std::string& object,
+                     const nlohmann::json& schema) {
+    for (const auto& [name, property] : schema["properties"].items()) {
+        nlohmann::json changed = extension;
+        nlohmann::json& holder = object.empty() ? changed : changed[object];
+        if (holder.erase(name) == 0) {
+            EXPECT_TRUE(name == "extensions" || name == "extras") << name;
+            continue;
+        }
+        const auto& required = schema["required"];
+        const bool needed = std::find(required.begin(), required.end(), name) != required.end();
+        EXPECT_EQ(parse_extension(changed.dump()).ok(), !needed) << object << "/" << name;
+    }
+    const nlohmann::json& holder = object.empty() ? extension : extension[object];
+    for (const auto& [name, value] : holder.items()) EXPECT_TRUE(schema["properties"].contains(name)) << name;
+}
+
+TEST(Specification, SchemasRequireWhatTheReaderRequires) {
+    PathDetail detail;
+    detail.grid_view = detail.data_view = 0;
+    detail.grid_width = detail.grid_height = detail.data_width = detail.data_height = 1;
+    detail.sections.material_texels = 1;
+    const nlohmann::json extension = nlohmann::json::parse(write_extension(detail));
+    expect_required(extension, "", schema(""));
+    expect_required(extension, "grid", schema(".grid"));
+    expect_required(extension, "data", schema(".data"));
+    const auto limit = [](const char* name) {
+        return schema(".data")["properties"][name]["maximum"].get<int>();
+    };
+    EXPECT_EQ(limit("elements"), BURIN_MAX_ELEMENT_TEXELS);
+    EXPECT_EQ(limit("styles"), BURIN_MAX_STYLES);
+    EXPECT_EQ(limit("profiles"), BURIN_MAX_PROFILE_TEXELS);
+    EXPECT_EQ(limit("materials"), BURIN_MAX_MATERIALS);
+    EXPECT_EQ(limit("lists"), BURIN_MAX_LIST_TEXELS);
+    EXPECT_EQ(limit("width"), BURIN_MAX_TEXTURE_SIDE);
+}
+
 std::string hex_rows(const std::vector<std::uint8_t>& bytes, std::size_t per_row) {
     static const char digits[] = "0123456789abcdef";
     std::string out;
