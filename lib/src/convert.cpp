@@ -64,6 +64,9 @@ void count_elements(const ResolvedPattern& pattern, double texels_per_metre, Con
     stats.profiles = static_cast<int>(pattern.profiles.size());
 }
 
+// Maps of lines and plateaus come above 0.5, rock and terrain stay below 0.2.
+constexpr double kPathLikeShare = 0.35;
+
 // The figures of the textures as they are stored.
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
                ConvertStats& stats) {
@@ -74,6 +77,7 @@ Status measure(const HeightMap& map, const PackedTextures& textures, const PathD
     const Image heights = rasterize_height(unpacked->pattern, map.image.width, map.image.height, options);
     const Comparison figures = compare_heights(heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp);
     stats.explained = figures.explained;
+    stats.path_like = figures.explained >= kPathLikeShare;
     stats.rms = figures.rms;
     stats.p999 = figures.p999;
     stats.max = figures.max;
@@ -90,7 +94,6 @@ Result<Vectorized> find_paths(const HeightMap& map, const ConvertOptions& option
     if (!traced) return traced.error();
     stats.noise = traced->noise;
     stats.tolerance = traced->tolerance;
-    stats.path_like = traced->path_like;
     if (!options.refine || traced->pattern.paths.empty()) return traced;
     if (!clock.begin("refine")) return stopped();
     RefineOptions refinement = options.refinement;

@@ -62,15 +62,19 @@ double total_energy(const Image& map, Wrap wrap) {
 
 Traced trace_map(const Image& source, const Lattice& lattice, double noise, double energy) {
     Traced traced;
-    Image map = source;
     const double radius = std::clamp(0.02 * std::min(lattice.width, lattice.height), 6.0, 24.0);
-    const bool grooves_first = line_energy(map, lattice, ChainKind::groove, radius, noise) >=
-                               line_energy(map, lattice, ChainKind::ridge, radius, noise);
+    // A line along the border of a map that does not tile is half outside: a mirrored margin makes it whole.
+    const int margin = lattice.wrap ? 0 : static_cast<int>(radius) + 8;
+    const Lattice wide{lattice.width + 2 * margin, lattice.height + 2 * margin, lattice.wrap};
+    Image map = mirror_margin(source, margin);
+    const bool grooves_first = line_energy(map, wide, ChainKind::groove, radius, noise) >=
+                               line_energy(map, wide, ChainKind::ridge, radius, noise);
     for (const bool first : {true, false}) {
         const ChainKind kind = first == grooves_first ? ChainKind::groove : ChainKind::ridge;
-        for (Chain& chain : trace_lines(map, lattice, kind, radius, noise, energy)) traced.lines.push_back(std::move(chain));
+        for (Chain& chain : trace_lines(map, wide, kind, radius, noise, energy)) traced.lines.push_back(std::move(chain));
     }
-    traced.flattened = std::move(map);
+    if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
+    traced.flattened = crop_margin(map, margin, lattice);
     traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy);
     traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
     return traced;

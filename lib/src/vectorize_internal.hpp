@@ -64,6 +64,14 @@ struct Regions {
     std::vector<std::uint32_t> area;   // texels, per region
 };
 
+// The map with a margin that mirrors it, and back.
+Image mirror_margin(const Image& map, int margin);
+Image crop_margin(const Image& map, int margin, const Lattice& lattice);
+
+// Chains traced on a map with a margin, in coordinates of the map: what lies outside is cut off, and a chain that was cut
+// runs straight on beyond the border, so that its end is not seen.
+std::vector<Chain> clip_chains(const std::vector<Chain>& chains, int margin, const Lattice& lattice);
+
 // Standard deviation of the map's grain, robust against edges.
 double estimate_noise(const Image& map, const Lattice& lattice);
 

@@ -17,6 +17,32 @@ float sample(const Image& image, const Lattice& lattice, Vec2 p) {
     return top + (bottom - top) * fy;
 }
 
+namespace {
+
+int mirrored(int a, int n) {
+    const int m = Lattice::modulo(a, 2 * n);
+    return m < n ? m : 2 * n - 1 - m;
+}
+
+}  // namespace
+
+Image mirror_margin(const Image& map, int margin) {
+    if (margin == 0) return map;
+    Image out(map.width + 2 * margin, map.height + 2 * margin);
+    for (int y = 0; y < out.height; ++y)
+        for (int x = 0; x < out.width; ++x)
+            out.at(x, y) = map.at(mirrored(x - margin, map.width), mirrored(y - margin, map.height));
+    return out;
+}
+
+Image crop_margin(const Image& map, int margin, const Lattice& lattice) {
+    if (margin == 0) return map;
+    Image out(lattice.width, lattice.height);
+    for (int y = 0; y < out.height; ++y)
+        for (int x = 0; x < out.width; ++x) out.at(x, y) = map.at(x + margin, y + margin);
+    return out;
+}
+
 // The mask (1 -2 1; -2 4 -2; 1 -2 1) removes planes and straight edges along the axes; its response to white noise of
 // deviation s has deviation 6 s. The median of its magnitude ignores the texels that lie on features.
 double estimate_noise(const Image& map, const Lattice& lattice) {

@@ -102,4 +102,60 @@ std::vector<std::uint8_t> find_tangled_steps(const std::vector<FittedChain>& cha
     return tangled;
 }
 
+namespace {
+
+// Continues a cut end straight to where no cap can be seen.
+void run_out(std::vector<Vec2>& points, double half_width) {
+    const std::size_t n = points.size(), back = std::min<std::size_t>(n - 1, 8);
+    points.push_back(points[n - 1] + unit(points[n - 1] - points[n - 1 - back]) * (3.0 * half_width + 8.0));
+}
+
+void add_run(std::vector<Chain>& out, const Chain& source, std::vector<Vec2>& run, bool cut_front, bool cut_back) {
+    if (run.size() >= 4 || (!cut_front && !cut_back && run.size() >= 2)) {
+        Chain chain = source;
+        chain.points = run;
+        chain.closed = source.closed && !cut_front && !cut_back;
+        if (cut_back) run_out(chain.points, chain.half_width), chain.end_tie = EndTie::border;
+        if (cut_front) {
+            std::reverse(chain.points.begin(), chain.points.end());
+            run_out(chain.points, chain.half_width);
+            std::reverse(chain.points.begin(), chain.points.end());
+            chain.start_tie = EndTie::border;
+        }
+        out.push_back(std::move(chain));
+    }
+    run.clear();
+}
+
+}  // namespace
+
+std::vector<Chain> clip_chains(const std::vector<Chain>& chains, int margin, const Lattice& lattice) {
+    std::vector<Chain> out;
+    const auto inside = [&](Vec2 p) {
+        return p.x >= -1.0 && p.y >= -1.0 && p.x <= lattice.width + 1.0 && p.y <= lattice.height + 1.0;
+    };
+    for (const Chain& source : chains) {
+        std::vector<Vec2> points = source.points;
+        for (Vec2& p : points) p = p - Vec2{double(margin), double(margin)};
+        // A loop that leaves the map is opened where it is outside.
+        if (source.closed) {
+            const auto outside = std::find_if_not(points.begin(), points.end(), inside);
+            if (outside != points.end()) std::rotate(points.begin(), outside, points.end());
+        }
+        std::vector<Vec2> run;
+        bool cut_front = false;
+        for (const Vec2 p : points) {
+            if (inside(p)) {
+                run.push_back(p);
+                continue;
+            }
+            add_run(out, source, run, cut_front, true);
+            cut_front = true;
+        }
+        const bool reopened = source.closed && !points.empty() && !inside(points.front());
+        add_run(out, source, run, cut_front, reopened);
+    }
+    return out;
+}
+
 }  // namespace burin::vectorizing
