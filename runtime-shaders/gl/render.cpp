@@ -247,17 +247,101 @@ std::uint8_t to_srgb(float linear) {
     return std::uint8_t(s * 255.0f + 0.5f);
 }
 
-RgbaImage to_image(const std::vector<float>& sum, int width, int height, float scale) {
-    RgbaImage image{width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height) * 4, 255)};
-    for (int y = 0; y < height; ++y) {
-        // The target's first row is the lowest one.
-        const float* from = &sum[std::size_t(height - 1 - y) * std::size_t(width) * 4];
-        std::uint8_t* to = &image.texels[std::size_t(y) * std::size_t(width) * 4];
-        for (int x = 0; x < width; ++x)
-            for (int k = 0; k < 3; ++k) to[4 * x + k] = to_srgb(from[4 * x + k] * scale);
+// Sums of samples, and what their spread says about where more are needed.
+class Accumulator {
+  public:
+    Accumulator(int width, int height)
+        : width_(width), height_(height), sum_(count() * 4, 0.0f), low_(count(), 1e9f), high_(count(), -1e9f),
+          samples_(count(), 0.0f), wanted_(count(), 255) {}
+
+    // Pixels with wanted() == 0 are left alone.
+    void add(const std::vector<float>& pixels) {
+        for (std::size_t i = 0; i < count(); ++i) {
+            if (wanted_[i] == 0) continue;
+            for (std::size_t k = 0; k < 4; ++k) sum_[4 * i + k] += pixels[4 * i + k];
+            samples_[i] += 1.0f;
+            // A gamma of 2 stands in for the eye.
+            const float seen = std::sqrt(pixels[4 * i] + 2.0f * pixels[4 * i + 1] + pixels[4 * i + 2]) * 0.5f;
+            low_[i] = std::min(low_[i], seen);
+            high_[i] = std::max(high_[i], seen);
+        }
     }
-    return image;
+
+    // Keeps the pixels whose samples, or whose neighbours' samples, differ by more than half a step of the picture's
+    // 8 bits: an edge that no sample of a pixel caught shows in the one beside it.
+    void keep_uneven() {
+        constexpr float kStep = 1.0f / 255.0f;
+        for (int y = 0; y < height_; ++y)
+            for (int x = 0; x < width_; ++x) {
+                float low = 1e9f, high = -1e9f;
+                for (int dy = std::max(y - 1, 0); dy <= std::min(y + 1, height_ - 1); ++dy)
+                    for (int dx = std::max(x - 1, 0); dx <= std::min(x + 1, width_ - 1); ++dx) {
+                        low = std::min(low, low_[at(dx, dy)]);
+                        high = std::max(high, high_[at(dx, dy)]);
+                    }
+                wanted_[at(x, y)] = high - low > kStep ? 255 : 0;
+            }
+    }
+    const std::vector<std::uint8_t>& wanted() const { return wanted_; }
+
+    RgbaImage image() const {
+        RgbaImage image{width_, height_, std::vector<std::uint8_t>(count() * 4, 255)};
+        for (int y = 0; y < height_; ++y)
+            for (int x = 0; x < width_; ++x) {
+                // The target's first row is the lowest one.
+                const std::size_t from = at(x, height_ - 1 - y);
+                for (std::size_t k = 0; k < 3; ++k)
+                    image.texels[4 * at(x, y) + k] = to_srgb(sum_[4 * from + k] / samples_[from]);
+            }
+        return image;
+    }
+
+  private:
+    std::size_t count() const { return std::size_t(width_) * std::size_t(height_); }
+    std::size_t at(int x, int y) const { return std::size_t(y) * std::size_t(width_) + std::size_t(x); }
+
+    int width_, height_;
+    std::vector<float> sum_, low_, high_, samples_;
+    std::vector<std::uint8_t> wanted_;  // 255 or 0 per pixel, lower row first
+};
+
+// Places of the samples within a pixel, -0.5 to 0.5: a grid of side x side, in an order whose first four spread.
+std::vector<Vec2> sample_places(int side) {
+    std::vector<Vec2> places;
+    for (int k = 0; k < side * side; ++k)
+        places.push_back({(k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5});
+    for (std::size_t i = 0; i < 4 && places.size() > 4; ++i) {
+        // Corners of a square turned by about 27 degrees.
+        const double turn = 0.4636 + 1.5708 * double(i);
+        const Vec2 wish{0.28 * std::cos(turn), 0.28 * std::sin(turn)};
+        const auto nearer = [&](Vec2 a, Vec2 b) { return length(a - wish) < length(b - wish); };
+        std::iter_swap(places.begin() + std::ptrdiff_t(i),
+                       std::min_element(places.begin() + std::ptrdiff_t(i), places.end(), nearer));
+    }
+    return places;
 }
+
+// A texture of one byte per pixel on unit 2, from which the shader reads where to draw.
+class WantedTexture {
+  public:
+    explicit WantedTexture(const gl::Functions& gl) : gl_(gl) { gl_.GenTextures(1, &name_); }
+    WantedTexture(const WantedTexture&) = delete;
+    WantedTexture& operator=(const WantedTexture&) = delete;
+    ~WantedTexture() { gl_.DeleteTextures(1, &name_); }
+
+    void set(const std::vector<std::uint8_t>& wanted, int width, int height) const {
+        gl_.ActiveTexture(GL_TEXTURE0 + 2);
+        gl_.BindTexture(GL_TEXTURE_2D, name_);
+        gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, wanted.data());
+        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+
+  private:
+    const gl::Functions& gl_;
+    GLuint name_ = 0;
+};
 
 Status check(const Asset& asset, const RenderOptions& options) {
     const Camera& camera = options.camera;
@@ -292,16 +376,24 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]), to_linear(options.background[2]),
                   1.0f);
     (*target)->bind();
-    const int side = int(std::ceil(std::sqrt(double(options.samples)) - 1e-9));
-    std::vector<float> sum(std::size_t(options.width) * std::size_t(options.height) * 4, 0.0f);
-    for (int k = 0; k < side * side; ++k) {
-        const glm::mat4 matrix = projection(view, options, (k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5);
+    const std::vector<Vec2> places = sample_places(int(std::ceil(std::sqrt(double(options.samples)) - 1e-9)));
+    Accumulator sums(options.width, options.height);
+    const WantedTexture wanted(gl);
+    wanted.set(sums.wanted(), options.width, options.height);
+    program->set("wanted", 2);
+    program->set("everywhere", 1);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        if (k == 4) {
+            sums.keep_uneven();
+            wanted.set(sums.wanted(), options.width, options.height);
+            program->set("everywhere", 0);
+        }
+        const glm::mat4 matrix = projection(view, options, places[k].x, places[k].y);
         gl.UniformMatrix4fv(program->at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix));
         draw_pass(gl, *program, asset, scene);
-        const std::vector<float> pixels = (*target)->read(0);
-        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += pixels[i];
+        sums.add((*target)->read(0));
     }
-    return to_image(sum, options.width, options.height, 1.0f / float(side * side));
+    return sums.image();
 }
 
 }  // namespace burin

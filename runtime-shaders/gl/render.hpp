@@ -45,7 +45,7 @@ struct Light {
     double azimuth = -50.0;   // degrees, where the light comes from
     double elevation = 35.0;  // degrees
     double strength = 3.0;    // irradiance of the directional light in units of pi / white
-    double ambient = 0.35;    // of the same
+    double ambient = 0.22;    // of the same
 };
 
 struct RenderOptions {
@@ -53,7 +53,9 @@ struct RenderOptions {
     Camera camera;
     Light light;
     bool shadows = true;
-    int samples = 16;  // per pixel, [1, 256]; rounded up to a square number
+    // Per pixel, [1, 256], rounded up to a square number. Four come first; the rest go where those or their neighbours
+    // differ by a step of the picture's 8 bits.
+    int samples = 16;
     std::array<float, 3> background = {0.93f, 0.93f, 0.93f};  // sRGB
     Backend backend = Backend::osmesa;
 };

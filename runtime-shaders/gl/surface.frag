@@ -10,6 +10,8 @@ uniform float metallic;
 uniform float roughness;
 uniform int has_detail;
 uniform int shadows;
+uniform highp sampler2D wanted;  // one texel per pixel: 0 where the picture needs no further sample
+uniform int everywhere;          // 1: all pixels are drawn
 in vec3 world_position;
 in vec3 world_normal;
 in vec2 pattern_uv;
@@ -55,6 +57,7 @@ vec3 shade(vec3 n, vec3 to_eye, vec3 albedo, float metal, float rough, float lit
 }
 
 void main() {
+    if (everywhere == 0 && texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x == 0.0) discard;
     vec3 to_eye = dot(view, view) > 0.0 ? -view : normalize(eye - world_position);
     vec3 n = normalize(world_normal);
     if (dot(n, to_eye) < 0.0 && !gl_FrontFacing) n = -n;
