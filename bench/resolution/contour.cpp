@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 
 namespace burin::bench {
@@ -52,17 +53,34 @@ class Buckets {
     std::unordered_map<std::int64_t, std::vector<std::uint32_t>> cells_;
 };
 
+constexpr double kSpot = 16.0;
+
 struct Measured {
     double distance, weight;
+    Vec2 place;
 };
 
 void measure(const std::vector<Segment>& from, const Buckets& to, std::vector<Measured>& out, LineDistance& result) {
     for (const Segment& s : from) {
         const Vec2 middle = lerp(s.a, s.b, 0.5);
         const double distance = to.nearest(middle);
-        out.push_back({distance, length(s.b - s.a)});
+        out.push_back({distance, length(s.b - s.a), middle});
         if (distance > result.max) result.max = distance, result.worst = middle;
     }
+}
+
+std::vector<LineDistance::Spot> spots_of(const std::vector<Measured>& all) {
+    std::map<std::pair<int, int>, double> sums;
+    double total = 1e-300;
+    for (const Measured& m : all) {
+        const double square = m.weight * m.distance * m.distance;
+        sums[{static_cast<int>(m.place.x / kSpot), static_cast<int>(m.place.y / kSpot)}] += square;
+        total += square;
+    }
+    std::vector<LineDistance::Spot> spots;
+    for (const auto& [cell, sum] : sums) spots.push_back({{cell.first * kSpot, cell.second * kSpot}, sum / total});
+    std::stable_sort(spots.begin(), spots.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
+    return spots;
 }
 
 }  // namespace
@@ -103,6 +121,7 @@ LineDistance distance_between(const std::vector<Segment>& first, const std::vect
         if (m.distance >= kLost) lost += m.weight;
     }
     if (weight <= 0.0) return result;
+    result.spots = spots_of(all);
     result.rms = std::sqrt(squares / weight);
     result.lost = lost / weight;
     std::sort(all.begin(), all.end(), [](const Measured& a, const Measured& b) { return a.distance > b.distance; });

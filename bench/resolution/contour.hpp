@@ -21,6 +21,12 @@ struct LineDistance {
     double rms = 0.0, p999 = 0.0, max = 0.0;
     Vec2 worst;               // where max was found
     double length = 0.0;      // of the first set
+    // Squares of 16 units by what they add to the mean square, greatest first: where to look.
+    struct Spot {
+        Vec2 corner;
+        double share = 0.0;
+    };
+    std::vector<Spot> spots;
     double lost = 0.0;        // share of both sets' length that is farther than 2 from the other set
 };
 

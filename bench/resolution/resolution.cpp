@@ -2,7 +2,8 @@
 // was made from, beside the same for bilinear interpolation of the map. Prints a Markdown table.
 //
 //     resolution [--start disturbed|vectorized] [--patterns plate|random|all] [--maps 512,1024] [--bits 16]
-//                [--seeds N] [--zoom 8192] [--picture FILE.ppm:X:Y:SIDE]
+//                [--seeds N] [--zoom 8192] [--spots N] [--walls 0..3]
+//                [--picture FILE.ppm:X:Y:SIDE]
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -32,7 +33,8 @@ struct Options {
     std::string start = "disturbed";
     std::string patterns = "plate";
     std::vector<int> maps{512, 1024};
-    int bits = 16, seeds = 4, zoom = 8192;
+    int bits = 16, seeds = 4, zoom = 8192, walls = -1;  // walls: one of the four readings, or all
+    int spots = 0;  // how many of the worst places are listed
     std::string picture;
 };
 
@@ -46,6 +48,7 @@ struct Case {
 struct Row {
     double ours = 0, ours999 = 0, ours_max = 0, lost = 0, bilinear = 0, bilinear999 = 0, bilinear_lost = 0, start = 0, rms = 0, seconds = 0;
     Vec2 worst;
+    std::vector<LineDistance::Spot> spots;
 };
 
 double now() {
@@ -58,7 +61,9 @@ void quantize(Image& map, int bits) {
 }
 
 ResolvedPattern resolved_or_exit(const Pattern& pattern) {
-    Result<ResolvedPattern> resolved = resolve_pattern(pattern);
+    ResolveOptions options;
+    options.lenient = true;
+    Result<ResolvedPattern> resolved = resolve_pattern(pattern, options);
     if (!resolved) {
         std::fprintf(stderr, "resolution: %s\n", resolved.error().message.c_str());
         std::exit(3);
@@ -169,6 +174,7 @@ Row measure(const Case& c, const Options& options, unsigned seed) {
     const LineDistance bilinear = distance_between(truth, lines_of(map, options.zoom));
     row.ours = distance.rms, row.ours999 = distance.p999, row.ours_max = distance.max, row.lost = distance.lost;
     row.worst = distance.worst;
+    row.spots = distance.spots;
     row.bilinear = bilinear.rms, row.bilinear999 = bilinear.p999, row.bilinear_lost = bilinear.lost;
     if (!options.picture.empty()) write_picture(options.picture, map, truth, our_lines);
     return row;
@@ -185,7 +191,9 @@ std::vector<Case> cases_of(const Options& options) {
                                 {"groove 0.4, vertical", {0.4, 0.0}}};
     std::vector<Case> cases;
     for (const int texels : options.maps) {
-        for (const Reading& reading : readings) {
+        for (int k = 0; k < 4; ++k) {
+            if (options.walls >= 0 && k != options.walls) continue;
+            const Reading& reading = readings[k];
             if (options.patterns != "random")
                 cases.push_back({std::string("plate, ") + reading.name, texels, reading.walls, plate(texels, reading.walls)});
             for (int seed = 1; seed <= options.seeds && options.patterns != "plate"; ++seed)
@@ -218,6 +226,8 @@ Options read_options(int argc, char** argv) {
         else if (name == "--bits") options.bits = std::atoi(value);
         else if (name == "--seeds") options.seeds = std::atoi(value);
         else if (name == "--zoom") options.zoom = std::atoi(value);
+        else if (name == "--walls") options.walls = std::atoi(value);
+        else if (name == "--spots") options.spots = std::atoi(value);
         else if (name == "--picture") options.picture = value;
         else std::fprintf(stderr, "resolution: unknown option %s\n", name.c_str()), std::exit(2);
     }
@@ -233,6 +243,8 @@ int run(const Options& options) {
         const Row r = measure(c, options, 7);
         std::printf("| %d | %s | %.4f | %.3f | %.3f | %.2f %% | %.4f | %.3f | %.2f %% | %.3f | %.5f | %.2f | %.1f, %.1f |\n", c.texels, c.name.c_str(), r.ours,
                     r.ours999, r.ours_max, 100 * r.lost, r.bilinear, r.bilinear999, 100 * r.bilinear_lost, r.start, r.rms, r.seconds, r.worst.x, r.worst.y);
+        for (std::size_t i = 0; i < r.spots.size() && i < static_cast<std::size_t>(options.spots); ++i)
+            std::printf("    %.0f, %.0f: %.1f %% of the mean square\n", r.spots[i].corner.x, r.spots[i].corner.y, 100 * r.spots[i].share);
         std::fflush(stdout);
     }
     return 0;

@@ -10,6 +10,7 @@
 
 #include "refine_forward.hpp"
 #include "refine_parameters.hpp"
+#include "refine_simplify.hpp"
 #include "refine_solve.hpp"
 
 namespace burin {
@@ -21,6 +22,7 @@ constexpr double kLeastDeviation = 1e-5;    // map scale: rounding of a 16-bit m
 constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e4;
+constexpr double kSimplerMayCost = 1.05;     // of the misfit
 constexpr double kSettled = 1e-4;  // relative gain of a step below which the iteration ends
 
 // The pattern in texels of the map's width, heights in map scale: white 1, black 0.
@@ -46,6 +48,7 @@ void from_texels(const Pattern& refined, double texel, Pattern& pattern) {
     const auto metres = [&](double value) { return pattern.base_offset + (value - 1.0) * pattern.depth; };
     pattern.outer_level = metres(refined.outer_level);
     for (std::size_t i = 0; i < pattern.profiles.size(); ++i) {
+        pattern.profiles[i].points.resize(refined.profiles[i].points.size());
         for (std::size_t k = 0; k < pattern.profiles[i].points.size(); ++k) {
             pattern.profiles[i].points[k].b = refined.profiles[i].points[k].b * texel;
             pattern.profiles[i].points[k].h = refined.profiles[i].points[k].h * pattern.depth;
@@ -105,9 +108,7 @@ class Refinement {
         : map_(map), side_(side), options_(options) {}
 
     Status predict(State& state, double threshold) const {
-        ResolveOptions resolve;
-        resolve.snap = options_.snap;
-        const Result<ResolvedPattern> resolved = resolve_pattern(state.pattern, resolve);
+        const Result<ResolvedPattern> resolved = resolve_pattern(state.pattern, resolve_options());
         if (!resolved) return resolved.error();
         state.elements = state.parameters.of_elements(state.pattern, *resolved);
         ForwardOptions forward;
@@ -117,14 +118,16 @@ class Refinement {
         return Done{};
     }
 
-    // Damped Gauss-Newton steps until nothing is gained. False when the pattern is better left as it was.
-    Result<bool> run(State& best, RefineReport& report) const {
+    // Damped Gauss-Newton steps from `start` until nothing is gained.
+    Result<State> run(const Pattern& start, RefineReport& report) const {
+        Pattern tied = start;
+        Parameters parameters(tied, options_);
+        State best{std::move(tied), std::move(parameters), {}, {}};
         if (Status status = predict(best, 1e30); !status) return status.error();
-        const std::vector<Residual> first = best.prediction.residuals;
-        report.rms_before = root_mean_square(first);
+        if (report.iterations == 0) report.rms_before = root_mean_square(best.prediction.residuals);
         report.unknowns = best.parameters.count();
         double damping = kFirstDamping;
-        while (report.iterations < options_.iterations && damping < kMostDamping && report.unknowns > 0) {
+        for (int i = 0; i < options_.iterations && damping < kMostDamping && report.unknowns > 0; ++i) {
             const double deviation = deviation_of(best.prediction.residuals);
             NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
             equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
@@ -142,17 +145,49 @@ class Refinement {
             damping = std::max(0.1 * damping, 1e-6);
             if (before - after < kSettled * before) break;
         }
-        report.rms_after = root_mean_square(best.prediction.residuals);
-        report.largest_shift_texels = best.parameters.largest_shift();
-        const double threshold = threshold_of(deviation_of(best.prediction.residuals));
-        return robust_cost(best.prediction.residuals, threshold) < robust_cost(first, threshold);
+        return best;
+    }
+
+    // Robust misfit over the whole map: patterns whose features cover different texels compare fairly.
+    Result<double> misfit(const Pattern& pattern, double threshold) const {
+        const Result<ResolvedPattern> resolved = resolve_pattern(pattern, resolve_options());
+        if (!resolved) return resolved.error();
+        ForwardOptions forward;
+        forward.threads = options_.threads;
+        const Image model = Forward(*resolved, map_, side_).image(forward);
+        std::vector<Residual> residuals(model.texels.size());
+        for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k].value = model.texels[k] - map_.texels[k];
+        return robust_cost(residuals, threshold);
     }
 
   private:
+    ResolveOptions resolve_options() const {
+        ResolveOptions resolve;
+        resolve.snap = options_.snap;
+        resolve.lenient = true;  // what cannot be resolved stays where it is
+        return resolve;
+    }
+
     const Image& map_;
     const Vec2 side_;
     const RefineOptions& options_;
 };
+
+// What would be indexed or divided by blindly. The rest is for `resolve_pattern` to leave out.
+std::optional<Error> damage_of(const Pattern& pattern) {
+    for (std::size_t p = 0; p < pattern.paths.size(); ++p) {
+        const Path& path = pattern.paths[p];
+        const auto damage = [&](const char* what) {
+            return Error{ErrorCode::invalid_input, "path " + std::to_string(p) + ": " + what};
+        };
+        if (path.profile >= pattern.profiles.size()) return damage("no profile has its profile's index");
+        if (pattern.profiles[path.profile].points.size() < 2) return damage("its profile has fewer than 2 points");
+        for (const Element& e : path.elements)
+            for (const double x : {e.p0.x, e.p0.y, e.p1.x, e.p1.y, e.p2.x, e.p2.y, e.width0, e.width1})
+                if (!std::isfinite(x)) return damage("a point or a scale is not finite");
+    }
+    return std::nullopt;
+}
 
 std::optional<Error> fault_of(const Pattern& pattern, const Image& map, const RefineOptions& options) {
     const auto fault = [](const std::string& message) { return Error{ErrorCode::invalid_argument, message}; };
@@ -163,7 +198,29 @@ std::optional<Error> fault_of(const Pattern& pattern, const Image& map, const Re
     if (!(options.max_shift_texels > 0.0)) return fault("max_shift_texels must be above 0");
     if (!(options.snap >= 0.0 && options.snap <= 0.01)) return fault("snap must lie in [0, 0.01]");
     if (!(options.narrow_texels >= 0.0)) return fault("narrow_texels must not be negative");
-    return std::nullopt;
+    return damage_of(pattern);
+}
+
+// First with the profiles as they came, symmetric ones made so; then, where it costs little, with fewer points: a
+// section measured through the blur of the texels has rounded corners, which the first stage has straightened.
+Result<State> refine_in_stages(const Refinement& refinement, const Pattern& start, const RefineOptions& options,
+                               RefineReport& report) {
+    Pattern first = start;
+    if (options.profiles) make_symmetric(first);
+    Result<State> best = refinement.run(first, report);
+    if (!best) return best;
+    Pattern simpler = best->pattern;
+    if (!options.profiles || !simplify_profiles(simpler)) return best;
+    RefineReport second = report;
+    Result<State> shorter = refinement.run(simpler, second);
+    if (!shorter) return best;
+    const double threshold = threshold_of(deviation_of(best->prediction.residuals));
+    const Result<double> cost = refinement.misfit(best->pattern, threshold);
+    const Result<double> shorter_cost = refinement.misfit(shorter->pattern, threshold);
+    if (!cost || !shorter_cost || *shorter_cost > kSimplerMayCost * *cost) return best;
+    report.iterations = second.iterations;
+    report.unknowns = second.unknowns;
+    return shorter;
 }
 
 }  // namespace
@@ -172,17 +229,19 @@ std::optional<Error> fault_of(const Pattern& pattern, const Image& map, const Re
 Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const RefineOptions& options) {
     using namespace refinement;
     if (const std::optional<Error> fault = fault_of(pattern, map, options)) return *fault;
-    // Checked before anything indexes by it.
-    if (const Result<ResolvedPattern> resolved = resolve_pattern(pattern); !resolved) return resolved.error();
     const double texel = pattern.size.x / map.width;
     const Vec2 side{1.0, pattern.size.y / map.height / texel};
-    Pattern start = to_texels(pattern, texel);
-    Parameters parameters(start, options);
-    State state{std::move(start), std::move(parameters), {}, {}};
+    const Pattern start = to_texels(pattern, texel);
+    const Refinement refinement(map, side, options);
     RefineReport report;
-    const Result<bool> better = Refinement(map, side, options).run(state, report);
-    if (!better) return better.error();
-    if (*better) from_texels(state.pattern, texel, pattern);
+    Result<State> best = refine_in_stages(refinement, start, options, report);
+    if (!best) return best.error();
+    report.rms_after = root_mean_square(best->prediction.residuals);
+    report.largest_shift_texels = best->parameters.largest_shift();
+    const double threshold = threshold_of(deviation_of(best->prediction.residuals));
+    const Result<double> before = refinement.misfit(start, threshold);
+    const Result<double> after = refinement.misfit(best->pattern, threshold);
+    if (before && after && *after < *before) from_texels(best->pattern, texel, pattern);
     return report;
 }
 

@@ -408,7 +408,8 @@ Image Forward::image(const ForwardOptions& options) const {
     const Scene& scene = *scene_;
     const Layout& layout = scene.layout;
     Image out(layout.width, layout.height, static_cast<float>(layout.outer_level));
-    if (!layout.ground.empty()) out.texels = layout.ground;
+    for (std::size_t k = 0; k < layout.ground.size(); ++k)
+        if (layout.ground[k] != kNearStep) out.texels[k] = layout.ground[k];
     in_parallel(scene.parts(), options.threads, [&](int part) {
         TexelModel texel(layout, options.divisions, false);
         scene.for_texels(part, [&](int x, int y) {

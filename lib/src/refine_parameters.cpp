@@ -9,12 +9,15 @@
 namespace burin::refinement {
 namespace {
 
+constexpr double kThinnest = 0.05;             // texels: no profile gets narrower
 constexpr double kSameOffset = 1e-4;           // texels
 constexpr double kSameHeight = 1e-6;           // map scale
-// 1 / deviation^2 of what is expected before the map is asked: a point to move by a texel, a height by a twentieth.
+// 1 / deviation^2 of what is expected before the map is asked: a point to move by a texel, a profile's offset by half
+// a texel, its height by a twentieth of the relief. The errors of neighbouring texels are alike, so against a profile
+// the map is trusted ten times less than its texel count says.
 constexpr double kLoose = 1.0;
-// The errors of neighbouring texels are alike, so the map is trusted less than its texel count says.
-constexpr double kNarrowHeight = 10.0 * 400.0;
+constexpr double kOffset = 10.0 * 4.0;
+constexpr double kHeight = 10.0 * 400.0;
 constexpr double kSameLevel = 1.0 / 4096.0;    // map scale: levels that resolve takes for equal
 
 bool is_step(const Profile& profile) {
@@ -70,6 +73,33 @@ void keep_order(Profile& profile, bool step) {
     if (!step) return;
     points.front().b = std::min(points.front().b, 0.0);
     points.back().b = std::max(points.back().b, 0.0);
+}
+
+// Keeps the relief between white and black on every path of the profile, or as far outside as it was.
+void keep_within(const Pattern& pattern, std::size_t index, const Profile& before, Profile& profile) {
+    double lowest_height = -1e300, highest_height = 1e300;
+    for (const Path& path : pattern.paths) {
+        if (path.profile != index) continue;
+        double scale = 0.0;
+        for (const Element& e : path.elements) scale = std::max({scale, e.height0, e.height1});
+        if (scale <= 0.0) continue;
+        lowest_height = std::max(lowest_height, -path.level / scale);
+        highest_height = std::min(highest_height, (1.0 - path.level) / scale);
+    }
+    for (std::size_t k = 0; k < profile.points.size(); ++k) {
+        const double was = before.points[k].h;
+        profile.points[k].h = std::clamp(profile.points[k].h, std::min(lowest_height, was), std::max(highest_height, was));
+    }
+}
+
+// Greatest scale that keeps a profile on a level within the relief; at least what it was.
+double most_scale(const Profile& profile, double level, double was) {
+    double most = 3.999;
+    for (const ProfilePoint& point : profile.points) {
+        if (point.h < 0.0) most = std::min(most, level / -point.h);
+        if (point.h > 0.0) most = std::min(most, (1.0 - level) / point.h);
+    }
+    return std::max(most, was);
 }
 
 double sum_of(const std::vector<Term>& terms, const std::vector<double>& step) {
@@ -321,11 +351,11 @@ void Parameters::number_profiles(const Pattern& pattern, const RefineOptions& op
                                       [&](const Path& path) { return path.profile == i; });
         if (!used) continue;
         const bool narrow = !step && box_width(profile) * mean_scale(pattern, i) < options.narrow_texels;
-        if (options.profiles) number_offsets(profile, narrow, profiles_[i]);
-        const int first_height = count_;
-        number_heights(profile, options.profiles, step, profiles_[i]);
         stiffness_.resize(count_, kLoose);
-        for (int k = first_height; k < count_ && narrow; ++k) stiffness_[k] = kNarrowHeight;
+        if (options.profiles) number_offsets(profile, narrow, profiles_[i]);
+        stiffness_.resize(count_, kOffset);
+        number_heights(profile, options.profiles, step, profiles_[i]);
+        stiffness_.resize(count_, kHeight);
     }
 }
 
@@ -360,35 +390,42 @@ void Parameters::apply(const std::vector<double>& step, double most_shift, Patte
     for (int i = 0; i < count_; ++i) moved_[i] += step[i];
     nodes_.move(step, most_shift);
     nodes_.write(pattern);
+    apply_levels(step, pattern);
     apply_profiles(step, pattern);
     apply_scales(step, pattern);
-    apply_levels(step, pattern);
+    follow_levels(pattern);
 }
 
 void Parameters::apply_profiles(const std::vector<double>& step, Pattern& pattern) const {
     for (std::size_t i = 0; i < profiles_.size(); ++i) {
         Profile& profile = pattern.profiles[i];
         const bool was_step = is_step(profile);
+        const Profile before = profile;
         for (std::size_t k = 0; k < profile.points.size(); ++k) {
             profile.points[k].b += sum_of(profiles_[i].b[k], step);
             profile.points[k].h += sum_of(profiles_[i].h[k], step);
         }
         keep_order(profile, was_step);
+        if (profile.points.back().b - profile.points.front().b < kThinnest)
+            for (std::size_t k = 0; k < profile.points.size(); ++k) profile.points[k].b = before.points[k].b;
+        if (!was_step) keep_within(pattern, i, before, profile);
     }
 }
 
 void Parameters::apply_scales(const std::vector<double>& step, Pattern& pattern) const {
-    const auto changed = [&](double value, int unknown) {
-        return unknown < 0 ? value : std::clamp(value + step[unknown], 0.02, 3.999);
+    const auto changed = [&](double value, int unknown, double most) {
+        return unknown < 0 ? value : std::clamp(value + step[unknown], 0.02, most);
     };
     for (std::size_t p = 0; p < scales_.size(); ++p) {
         for (std::size_t i = 0; i < scales_[p].size(); ++i) {
             Element& e = pattern.paths[p].elements[i];
             const ScaleUnknowns& unknowns = scales_[p][i];
-            e.width0 = changed(e.width0, unknowns.width[0]);
-            e.width1 = changed(e.width1, unknowns.width[1]);
-            e.height0 = changed(e.height0, unknowns.height[0]);
-            e.height1 = changed(e.height1, unknowns.height[1]);
+            const Path& path = pattern.paths[p];
+            const double most = most_scale(pattern.profiles[path.profile], path.level, std::max(e.height0, e.height1));
+            e.width0 = changed(e.width0, unknowns.width[0], 3.999);
+            e.width1 = changed(e.width1, unknowns.width[1], 3.999);
+            e.height0 = changed(e.height0, unknowns.height[0], most);
+            e.height1 = changed(e.height1, unknowns.height[1], most);
         }
     }
 }
@@ -396,12 +433,20 @@ void Parameters::apply_scales(const std::vector<double>& step, Pattern& pattern)
 void Parameters::apply_levels(const std::vector<double>& step, Pattern& pattern) {
     const auto moved = [&](int level) { return level_unknown_[level] < 0 ? 0.0 : step[level_unknown_[level]]; };
     for (std::size_t i = 0; i < levels_.size(); ++i) levels_[i] += moved(static_cast<int>(i));
-    pattern.outer_level += moved(outer_level_);
+    const auto within = [](double level) { return std::clamp(level, 0.0, 1.0); };
+    pattern.outer_level = within(pattern.outer_level + moved(outer_level_));
     for (std::size_t p = 0; p < path_levels_.size(); ++p) {
         PathLevels& levels = path_levels_[p];
-        levels.left_value += moved(levels.left);
-        levels.right_value += moved(levels.right);
+        levels.left_value = within(levels.left_value + moved(levels.left));
+        levels.right_value = within(levels.right_value + moved(levels.right));
         pattern.paths[p].level = levels.left_value;
+    }
+}
+
+// A step's scale carries its profile from the level on its left to that on its right.
+void Parameters::follow_levels(Pattern& pattern) const {
+    for (std::size_t p = 0; p < path_levels_.size(); ++p) {
+        const PathLevels& levels = path_levels_[p];
         if (!levels.step) continue;
         const Profile& profile = pattern.profiles[pattern.paths[p].profile];
         const double rise = profile.points.back().h - profile.points.front().h;

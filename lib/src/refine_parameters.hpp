@@ -65,6 +65,7 @@ class Parameters {
     void number_scales(const Pattern& pattern);
     void apply_profiles(const std::vector<double>& step, Pattern& pattern) const;
     void apply_levels(const std::vector<double>& step, Pattern& pattern);
+    void follow_levels(Pattern& pattern) const;
     void apply_scales(const std::vector<double>& step, Pattern& pattern) const;
 
     Nodes nodes_;

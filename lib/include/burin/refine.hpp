@@ -25,9 +25,9 @@ struct RefineOptions {
     // Ends nearer than this to another path's line lie on it and stay on it; metres as a fraction of the larger side,
     // as ResolveOptions::snap. Range [0, 0.01].
     double snap = 1e-4;
-    // A groove whose flat bottom is narrower than this shows the map only its cross-section's area: its heights are
-    // held as they came, and its width alone is fitted. Texels, >= 0.
-    double narrow_texels = 1.0;
+    // A groove narrower than this (area over depth) shows the map little but its cross-section's area: its offsets keep
+    // their proportions, and its depth keeps near what it was unless crossings and ends tell better. Texels, >= 0.
+    double narrow_texels = 1.25;
     int threads = 0;                  // 0: as many as the machine has. The result does not depend on it.
 };
 
@@ -43,14 +43,16 @@ struct RefineReport {
 // their point bit by bit; an end on another path's line slides along it (T); smooth joints (below
 // ResolveOptions::smooth_angle, with a quadratic at one side) stay tangent; collinear neighbours stay collinear; ends
 // on the border of a clamped pattern slide along the border; a profile is one for all its paths; symmetric profiles
-// stay symmetric, flat facets flat, vertical walls vertical; regions at one level stay at one level, and a step
+// stay symmetric, flat facets flat, vertical walls vertical; profiles that were measured with more
+// points than their shape has lose some; regions at one level stay at one level, and a step
 // profile's last height follows the levels of its two regions.
 //
 // Requires: map covers [0, size] of the pattern, values as `pattern.hpp` defines them (1 = object surface).
-// Ensures: the pattern never fits the map worse than before (else it is returned as it came); equal bytes for any
-// number of threads. Heights stay within [lowest, highest].
-// Fails with invalid_argument on options out of range or an empty map, and with the error of `resolve_pattern` when
-// the pattern cannot be resolved; the pattern is then unchanged.
+// Ensures: the pattern never fits the map worse than before, in the robust measure (else it is returned as it came);
+// equal bytes for any number of threads. Heights stay within [lowest, highest].
+// Paths that a lenient `resolve_pattern` drops stay where they are.
+// Fails with invalid_argument on options out of range or an empty map, and with invalid_input, naming the path, on
+// profile indices out of range and on numbers that are not finite; the pattern is then unchanged.
 // Cost: about 0.1 microseconds per texel near a feature and step, ten times that within a few texels of junctions.
 Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const RefineOptions& options = {});
 

@@ -1,0 +1,14 @@
+// Fewer points for profiles that were measured through the blur of the map's texels.
+#pragma once
+
+#include <burin/pattern.hpp>
+
+namespace burin::refinement {
+
+// Makes profiles that are symmetric within a few percent exactly so. Returns whether any changed. Lengths in texels.
+bool make_symmetric(Pattern& pattern);
+
+// Drops points that hardly bend a profile, and end facets that hardly leave the ground. Returns whether any was dropped.
+bool simplify_profiles(Pattern& pattern);
+
+}  // namespace burin::refinement
