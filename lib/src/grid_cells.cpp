@@ -1,6 +1,7 @@
 // Level, height bounds, flags and skip distance of every cell.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "grid_internal.hpp"
 #include "layout.h"
@@ -129,18 +130,34 @@ void fill_bounds(const Frame& frame, const std::vector<std::vector<Hit>>& hits, 
     }
 }
 
+// Whether the listed elements are one open chain: from the only one that none of them leads to, all are reached. A closed
+// loop within one cell is not simple, and must not stand in for a chain beside it.
+bool is_open_chain(const Chain& chain, std::span<const std::uint32_t> list) {
+    const auto listed = [list](std::uint32_t element) {
+        return element != kNoElement && std::binary_search(list.begin(), list.end(), element);
+    };
+    std::vector<std::uint32_t> followers;
+    for (const std::uint32_t ref : list)
+        if (listed(chain.next[ref])) followers.push_back(chain.next[ref]);
+    std::sort(followers.begin(), followers.end());
+    const auto start = std::find_if(list.begin(), list.end(), [&followers](std::uint32_t ref) {
+        return !std::binary_search(followers.begin(), followers.end(), ref);
+    });
+    if (start == list.end()) return list.empty();
+    std::size_t reached = 1;
+    for (std::uint32_t at = *start; listed(chain.next[at]) && reached < list.size(); at = chain.next[at]) ++reached;
+    return reached == list.size();
+}
+
 void flag_isolated(const Chain& chain, const std::vector<std::vector<Hit>>& hits, CellGrid& grid) {
     std::vector<char> special(grid.flags.size(), 0);
     for (const auto& list : hits)
         for (const Hit& hit : list)
             if (hit.end_zone) special[hit.cell] = 1;
     for (std::size_t k = 0; k < grid.flags.size(); ++k) {
-        const auto first = grid.refs.begin() + grid.first_ref[k], end = grid.refs.begin() + grid.first_ref[k + 1];
-        std::ptrdiff_t links = 0;
-        for (auto ref = first; ref != end; ++ref)
-            if (chain.next[*ref] != kNoElement && std::binary_search(first, end, chain.next[*ref])) ++links;
-        // n elements in one open chain have n - 1 links; a closed loop within one cell is not simple.
-        if (!special[k] && (first == end || links == end - first - 1)) grid.flags[k] |= BURIN_CELL_FLAG_ISOLATED;
+        const std::span<const std::uint32_t> refs(grid.refs);
+        const auto list = refs.subspan(grid.first_ref[k], grid.first_ref[k + 1] - grid.first_ref[k]);
+        if (!special[k] && is_open_chain(chain, list)) grid.flags[k] |= BURIN_CELL_FLAG_ISOLATED;
     }
 }
 

@@ -132,6 +132,36 @@ TEST_P(PackProperty, ReaderFromTheSpecificationFindsTheSurface) {
     std::printf("%zu points compared, %zu on features\n", compared, features);
 }
 
+// A groove around the tile is a loop of two elements; the one that crosses it makes the cell a special one.
+TEST(Pack, LoopAroundTheTileDoesNotHideACrossing) {
+    Pattern pattern;
+    pattern.profiles.push_back({{{-0.01, 0.0}, {0.0, -0.005}, {0.01, 0.0}}, {}});
+    Path loop, crossing;
+    Element e;
+    e.p0 = {0.1, 0.5}, e.p2 = {0.6, 0.5};
+    loop.elements.push_back(e);
+    e.p0 = {0.6, 0.5}, e.p2 = {1.1, 0.5};
+    loop.elements.push_back(e);
+    loop.closed = true;
+    e.p0 = {0.12, 0.3}, e.p2 = {0.13, 0.7};
+    crossing.elements.push_back(e);
+    pattern.paths = {loop, crossing};
+    const Result<ResolvedPattern> resolved = resolve_pattern(pattern);
+    ASSERT_TRUE(resolved.ok()) << resolved.error().message;
+    for (const double side : {0.03, 0.06, 0.1, 0.2}) {
+        GridOptions options;
+        options.cell_size = side;
+        const Result<CellGrid> grid = build_grid(*resolved, options);
+        ASSERT_TRUE(grid.ok()) << grid.error().message;
+        const Result<PackedTextures> textures = pack_textures(*resolved, *grid);
+        ASSERT_TRUE(textures.ok()) << textures.error().message;
+        validate_textures(*textures, describe_pattern(*resolved, *textures), [side](const Issue& issue) {
+            ADD_FAILURE() << "cells of " << side << ": " << issue.number << " " << issue.pointer << ": "
+                          << issue.message;
+        });
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Wraps, PackProperty, ::testing::Values(Wrap::repeat, Wrap::clamp));
 
 }  // namespace
