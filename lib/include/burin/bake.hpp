@@ -14,10 +14,10 @@
 namespace burin {
 
 struct FallbackOptions {
-    int max_side = 512;  // longer side of the normal map, texels, [1, 4096]
+    int max_side = 256;  // longer side of the normal map, texels, [1, 4096]
     // A smaller normal map is taken while its normals, interpolated, stay within this RMS angle of the largest one's,
     // degrees, [0, 90].
-    double normal_tolerance = 1.5;
+    double normal_tolerance = 2.0;
     bool occlusion = true;  // the occlusion map has at most half the side of the normal map
 };
 
