@@ -112,6 +112,11 @@ TEST_P(PackProperty, ReaderFromTheSpecificationFindsTheSurface) {
             const double u = uv.x, v = uv.y;
             ++asked;
             const SpecificationReader::Answer answer = reader.height_at(u, v);
+            // Every point, also those on a border, lies within the bounds of its cell.
+            const double slack = 1e-9 * p.pattern.depth;
+            EXPECT_TRUE(answer.lowest - slack <= answer.height && answer.height <= answer.highest + slack)
+                << "uv (" << u << ", " << v << "): " << answer.height << " outside of " << answer.lowest
+                << " to " << answer.highest;
             const double border = 8.0 * std::ldexp(std::max(p.pattern.size.x, p.pattern.size.y), -20);
             const double edge = std::min({std::abs(u), std::abs(v), std::abs(u - 1), std::abs(v - 1)});
             if (answer.clearance < border || edge < 1e-5) continue;

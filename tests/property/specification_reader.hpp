@@ -29,6 +29,7 @@ class SpecificationReader {
 
     struct Answer {
         double height = 0, ground = 0;
+        double lowest = 0, highest = 0;  // bounds that the cell states
         // How near the point is to a place where the answer may jump, in metres: tests leave those points
         // out.
         double clearance = 1e300;
@@ -38,7 +39,7 @@ class SpecificationReader {
     Answer height_at(double u, double v) const {
         Answer answer;
         if (!q_.repeat && (u < 0 || v < 0 || u >= 1 || v >= 1)) {
-            answer.height = answer.ground = q_.outer_level;
+            answer.height = answer.ground = answer.lowest = answer.highest = q_.outer_level;
             return answer;
         }
         u -= std::floor(u), v -= std::floor(v);
@@ -53,6 +54,8 @@ class SpecificationReader {
         std::uint32_t level = bits(y, 0, 15);
         if (bits(x, 31, 31)) level = ground_code(list, {cu * q_.size[0], cv * q_.size[1]}, p, level);
         answer.ground = height_of(level);
+        answer.highest = height_of(257 * bits(y, 16, 23));
+        answer.lowest = height_of(257 * bits(y, 24, 31));
         double add = answer.ground, cut = 1e300;
         for (const Element& e : list) apply(e, p, level, add, cut, answer.clearance);
         answer.height = std::min(add, cut);
