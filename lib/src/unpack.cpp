@@ -22,7 +22,11 @@ class Unpacker {
         pattern.depth = detail_.depth;
         pattern.base_offset = detail_.base_offset;
         pattern.wrap = detail_.repeat ? Wrap::repeat : Wrap::clamp;
+        // Levels are compared as codes, so the one that JSON writes as a number takes the code nearest to it.
         pattern.outer_level = detail_.outer_level;
+        std::uint32_t code = 0;
+        if (encode_unorm16(height_to_unit(detail_.outer_level, detail_.depth, detail_.base_offset), code))
+            pattern.outer_level = height(code);
         read_materials();
         read_elements();
         read_cells();
