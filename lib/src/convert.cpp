@@ -74,6 +74,7 @@ Status measure(const HeightMap& map, const PackedTextures& textures, const PathD
     if (!unpacked) return unpacked.error();
     RasterizeOptions options;
     options.threads = threads;
+    options.level_tolerance = 4e-5;  // levels and heights come from 16-bit codes
     const Image heights = rasterize_height(unpacked->pattern, map.image.width, map.image.height, options);
     const Comparison figures = compare_heights(heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp);
     stats.explained = figures.explained;
