@@ -29,6 +29,7 @@ Result<Image> reconstruct(const Arguments& arguments, const Asset& asset, std::s
     if (!unpacked) return unpacked.error();
     RasterizeOptions options;
     options.threads = arguments.integer("--threads");
+    options.level_tolerance = 4e-5;  // levels and heights come from 16-bit codes
     return rasterize_height(unpacked->pattern, map.width, map.height, options);
 }
 
