@@ -151,6 +151,12 @@ void mark_corners(FitResult& result, const FitOptions& options) {
     }
 }
 
+double area_of(const Points& points) {
+    double twice = 0.0;
+    for (long i = 0; i < points.count; ++i) twice += cross(points[i] - points[0], points[i + 1] - points[0]);
+    return 0.5 * twice;
+}
+
 // The oval of a loop of so few points that they have no shape to speak of: quadratics in the rectangle about them.
 Chain oval_of(const Points& points) {
     Vec2 centre;
@@ -163,14 +169,13 @@ Chain oval_of(const Points& points) {
     const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
     const Vec2 t{std::cos(angle), std::sin(angle)}, n = normal_of(t);
     Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
-    double area = 0.0;
     for (long i = 0; i < points.count; ++i) {
-        const Vec2 d = points[i] - centre, next = points[i + 1] - centre;
+        const Vec2 d = points[i] - centre;
         const Vec2 p{dot(d, t), dot(d, n)};
         low = {std::min(low.x, p.x), std::min(low.y, p.y)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-        area += cross(d, next);
     }
+    const double area = area_of(points);
     // Never flatter than a tenth of its length, so that it stays a loop.
     const double half = std::max(0.5 * (high.y - low.y), 0.05 * (high.x - low.x));
     const Vec2 middle{0.5 * (low.x + high.x), 0.5 * (low.y + high.y)}, size{0.5 * (high.x - low.x), half};
@@ -200,11 +205,21 @@ Chain oval_of(const Points& points) {
 
 bool is_loop(const Points& points) { return points.closed && points.period == Vec2{}; }
 
-// A loop needs an inside: two curves, or three lines.
-bool has_inside(const Chain& chain) {
-    long curves = 0;
-    for (const fit::Vertex& v : chain.vertices) curves += v.corner ? 0 : 1;
-    return chain.elements() >= (curves > 0 ? 2 : 3);
+double area_of(const Chain& chain, Vec2 origin) {
+    double twice = 0.0;
+    for (long k = 0; k < chain.size(); ++k) {
+        const Vec2 a = chain.joint_in(k) - origin, v = chain.position(k) - origin, b = chain.joint_out(k) - origin;
+        // A quadratic covers two thirds of the triangle of its control points; a corner's three points coincide.
+        twice += cross(a, b) + (cross(a, v) + cross(v, b) - cross(a, b)) * (2.0 / 3.0);
+        if (chain.at(k).line) twice += cross(b, chain.joint_in(k + 1) - origin);
+    }
+    return 0.5 * twice;
+}
+
+// A loop narrower than the tolerance may be fitted by a line there and back: it must keep an inside.
+bool has_inside(const Chain& chain, const Points& points) {
+    const double given = area_of(points);
+    return chain.elements() >= 2 && area_of(chain, points[0]) * given >= 0.3 * given * given;
 }
 
 Chain fit_points(const Points& points, const FitOptions& options) {
@@ -219,7 +234,7 @@ Chain fit_points(const Points& points, const FitOptions& options) {
         Chain chain = fit::segment_points(points, finer);
         fit::repair_chain(chain, points, options);
         fit::simplify_chain(chain, points, options);
-        if (is_loop(points) && !has_inside(chain)) continue;
+        if (is_loop(points) && !has_inside(chain, points)) continue;
         const double error = fit::judged_error(chain, points, options);
         if (error < least) least = error, best = std::move(chain);
         if (least <= options.tolerance) break;

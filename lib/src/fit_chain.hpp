@@ -74,6 +74,19 @@ struct Chain {
     long elements() const;
 };
 
+// What the fit minimises, about in elements. A quadratic takes two texels in the data texture where a line takes one, and
+// a slower search in the shader; besides, a straight run should be a line even where a curve's slack would cover it.
+constexpr double kLineCost = 0.65;
+constexpr double kQuadraticCost = 1.25;
+
+// At a mean square error of the tolerance squared. High enough that straight lines and a corner win over a bow that just
+// keeps within the tolerance; the price is a seventh more quadratics on an arc than the tolerance asks for.
+constexpr double kErrorCost = 1.5;
+
+inline double piece_cost(double base, double mean_square, double tolerance) {
+    return base + kErrorCost * mean_square / (tolerance * tolerance);
+}
+
 // A run of vertices [first, first + count) that may move; the rest stays.
 struct Window {
     long first = 0;

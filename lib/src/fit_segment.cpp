@@ -17,13 +17,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// What the programme minimises, about in elements. A quadratic takes two texels in the data texture where a line takes
-// one, and a slower search in the shader; besides, a straight run should be a line even where a curve's slack would cover
-// it. A corner makes a special cell.
-constexpr double kLineCost = 0.65;
-constexpr double kQuadraticCost = 1.25;
-constexpr double kCornerCost = 0.2;
-constexpr double kErrorCost = 0.2;  // at an error of the tolerance
+constexpr double kCornerCost = 0.2;  // a corner makes a special cell
 
 constexpr std::size_t kMostSamples = 24;  // points that judge one piece: more would tell the same
 constexpr long kFewestPoints = 4;    // spacings that a quadratic spans at least
@@ -91,6 +85,22 @@ std::vector<long> candidates_of(const Points& points, double tolerance) {
         if (length(points[i] - points[0]) > length(points[far] - points[0])) far = i;
     split_span(points, 0, far, tolerance, out);
     split_span(points, far, points.end(), tolerance, out);
+    return out;
+}
+
+// Adds the neighbours of sharp vertices: the polyline's vertex is the point furthest out, and a corner's sides may part
+// one point before or after it.
+std::vector<long> with_more_at_corners(const Points& points, const std::vector<long>& vertices) {
+    std::vector<long> out{vertices[0]};
+    for (std::size_t i = 1; i + 1 < vertices.size(); ++i) {
+        const Vec2 here = points[vertices[i]];
+        const Vec2 in = unit(here - points[vertices[i - 1]]), out_of = unit(points[vertices[i + 1]] - here);
+        const bool sharp = dot(in, out_of) < 0.94;  // 20 degrees
+        if (sharp && vertices[i] - 1 > out.back()) out.push_back(vertices[i] - 1);
+        if (vertices[i] > out.back()) out.push_back(vertices[i]);
+        if (sharp && vertices[i] + 1 < vertices[i + 1]) out.push_back(vertices[i] + 1);
+    }
+    out.push_back(vertices.back());
     return out;
 }
 
@@ -163,8 +173,9 @@ template <typename Distance>
 Ends ends_of(const Points& points, const FitOptions& options, long first, long last, const Distance& distance) {
     Ends ends;
     const PointRange core = core_of(points, first, last, options.corner_reach);
-    for (long i = first; i < core.begin; ++i) ends.first = std::max(ends.first, distance(points[i]));
-    for (long i = core.end; i <= last; ++i) ends.last = std::max(ends.last, distance(points[i]));
+    // The end points themselves are shared with the neighbours: at a corner they may lie on either side.
+    for (long i = first + 1; i < core.begin; ++i) ends.first = std::max(ends.first, distance(points[i]));
+    for (long i = core.end; i < last; ++i) ends.last = std::max(ends.last, distance(points[i]));
     return ends;
 }
 
@@ -258,10 +269,6 @@ Judged improve(Samples& s, Controls& c, bool change) {
     return judged;
 }
 
-double piece_cost(double base, Judged error, double tolerance) {
-    return base + kErrorCost * error.mean_square / (tolerance * tolerance);
-}
-
 // Least squares line through the points from `first` to `last`; false when it misses the tolerance.
 bool fit_line(const Points& points, const FitOptions& options, long first, long last, Piece& piece) {
     const Samples s(points, first, last, options.corner_reach);
@@ -286,7 +293,7 @@ bool fit_line(const Points& points, const FitOptions& options, long first, long 
     piece.control = (piece.start + piece.end) * 0.5;
     piece.direction_in = piece.direction_out = t;
     const double mean_square = tally.sum_of_squares / std::max<double>(1.0, static_cast<double>(s.count));
-    piece.cost = piece_cost(kLineCost, {0.0, mean_square}, options.tolerance);
+    piece.cost = piece_cost(kLineCost, mean_square, options.tolerance);
     piece.ends = ends_of(points, options, first, last, [&](Vec2 p) { return std::abs(cross(t, p - centre)); });
     return tally.finish() <= options.tolerance;
 }
@@ -309,7 +316,7 @@ bool fit_quadratic(const Points& points, const FitOptions& options, double reach
     if (error.largest > options.tolerance || dot(in, out) < -0.5 || along < 0.1 || along > 0.9) return false;
     piece.start = c[0], piece.control = c[1], piece.end = c[2];
     piece.direction_in = in, piece.direction_out = out;
-    piece.cost = piece_cost(kQuadraticCost, error, options.tolerance);
+    piece.cost = piece_cost(kQuadraticCost, error.mean_square, options.tolerance);
     if (reach > 0.0)
         piece.ends = ends_of(points, options, first, last, [&](Vec2 p) {
             const double t = closest_parameter(c[0], c[1], c[2], p, dot(p - c[0], chord) > 0.5 * dot(chord, chord) ? 1.0 : 0.0);
@@ -387,7 +394,7 @@ bool fit_between(const Points& points, const FitOptions& options, const Frame& a
     piece.quadratic = true;
     piece.start = c[0], piece.control = c[1], piece.end = c[2];
     piece.direction_in = a.t, piece.direction_out = b.t;
-    piece.cost = piece_cost(kQuadraticCost, error, options.tolerance);
+    piece.cost = piece_cost(kQuadraticCost, error.mean_square, options.tolerance);
     return true;
 }
 
@@ -415,6 +422,19 @@ bool arc_fits(const Points& points, const FitOptions& options, long first, long 
     return tally.finish() <= options.tolerance;
 }
 
+// Distance of a place to the polyline of the points near index i.
+double distance_to_row(const Points& points, Vec2 p, long i) {
+    const long first = points.closed ? i - 3 : std::max(0L, i - 3);
+    const long last = points.closed ? i + 3 : std::min(points.count - 1, i + 3);
+    double least = length(points[first] - p);
+    for (long k = first; k < last; ++k) {
+        const Vec2 side = points[k + 1] - points[k];
+        const double t = std::clamp(dot(p - points[k], side) / std::max(dot(side, side), 1e-12), 0.0, 1.0);
+        least = std::min(least, length(points[k] + side * t - p));
+    }
+    return least;
+}
+
 // --- the programme ---------------------------------------------------------------------------------------------
 
 class Segmenter {
@@ -439,7 +459,7 @@ class Segmenter {
     bool smooth_about(long candidate, double turn);
     double cost_of_left_out(double excess) const {
         if (!(excess > 0.0) || options_.corner_reach == 0.0) return 0.0;
-        const double over = excess / (0.3 * options_.corner_reach);
+        const double over = excess / (0.15 * options_.corner_reach);
         return 0.5 * over * over;
     }
     void relax(Piece& after);
@@ -524,7 +544,7 @@ void Segmenter::add_pieces(long a) {
 
 // Whether one smooth curve, an arc or a parabola, explains the points about a candidate as well as a corner of this turn
 // does. A corner is seen only from far enough away: over w texels on either side the best arc misses a turn a by about
-// w a / 8. That has to exceed the tolerance, and what a raster rounds off the tip, a fifth of a texel for a right angle.
+// w a / 16. That has to exceed the tolerance, and what a raster rounds off the tip, a fifth of a texel for a right angle.
 bool Segmenter::smooth_about(long candidate, double turn) {
     constexpr std::array<double, 4> turns{0.45, 0.75, 1.1, 1.6};  // radians
     std::size_t level = 3;
@@ -532,7 +552,7 @@ bool Segmenter::smooth_about(long candidate, double turn) {
     signed char& known = smooth_[static_cast<std::size_t>(candidate)][level];
     if (known >= 0) return known > 0;
     const double a = turns[level];
-    const double reach = 8.0 / a * (1.2 * options_.tolerance + unit_ * (0.1 + 0.15 * a));
+    const double reach = (level == 0 ? 8.0 : level == 1 ? 10.0 : 12.0) / a * (1.2 * options_.tolerance + unit_ * (0.1 + 0.1 * a));
     const long middle = candidates_[static_cast<std::size_t>(candidate)];
     const long low = points_.closed ? middle - points_.count / 2 : 0;
     const long high = points_.closed ? middle + points_.count / 2 : points_.count - 1;
@@ -575,8 +595,12 @@ double Segmenter::joint_cost(const Piece& before, const Piece& after, bool& corn
     const double far = std::max(0.0, off / std::max(allowed, 1e-9) - 1.0);
     // The tip of a corner of inner angle a loses up to 0.5 cos(a / 2) texels on either side.
     const double lost = 0.35 * options_.corner_reach * std::cos(0.5 * (std::numbers::pi - turn));
+    // A raster leaves about a / 8 texels between a corner that turns a and the contour, an arc of radius r leaves
+    // r (1 / cos(a / 2) - 1).
+    const double gap_at_tip = distance_to_row(points_, at, candidates_[static_cast<std::size_t>(after.a)]) -
+                              0.15 * turn * options_.corner_reach - 0.5 * options_.tolerance;
     const double hairpin = turn > 2.8 ? kQuadraticCost : 0.0;
-    const double sharp = kCornerCost + hairpin + far * far + cost_of_left_out(left_out - lost) + (smooth_about(after.a, turn) ? 2.0 * kQuadraticCost : 0.0);
+    const double sharp = kCornerCost + hairpin + far * far + cost_of_left_out(std::max(left_out - lost, turn < 1.0 ? gap_at_tip : 0.0)) + (smooth_about(after.a, turn) ? 2.0 * kQuadraticCost : 0.0);
     corner = sharp < smooth;
     return std::min({sharp, smooth, 6.0});
 }
@@ -596,7 +620,8 @@ void Segmenter::relax(Piece& after) {
 }
 
 std::vector<Piece> Segmenter::run() {
-    candidates_ = with_more_in_bends(points_, candidates_of(points_, 0.6 * options_.tolerance), options_.tolerance);
+    const std::vector<long> vertices = candidates_of(points_, 0.6 * options_.tolerance);
+    candidates_ = with_more_in_bends(points_, with_more_at_corners(points_, vertices), options_.tolerance);
     const long last = static_cast<long>(candidates_.size()) - 1;
     ending_.resize(candidates_.size());
     smooth_.assign(candidates_.size(), {-1, -1, -1, -1});

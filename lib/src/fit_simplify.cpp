@@ -77,20 +77,30 @@ Window about(const Chain& chain, long first, long count) {
     return {low, high - low};
 }
 
-// Largest error of the pieces that the window's vertices shape.
-double window_error(const Chain& chain, const Points& points, const FitOptions& options, Window window) {
+// The pieces that a window's vertices shape: their largest error, and what they cost.
+struct Shaped {
+    double judged = 0.0;
+    double cost = 0.0;
+
+    void add(const PieceError& e, double base, double tolerance) {
+        judged = std::max(judged, e.judged);
+        cost += piece_cost(base, e.sum_of_squares / static_cast<double>(std::max(1L, e.counted)), tolerance);
+    }
+};
+
+Shaped shaped_by(const Chain& chain, const Points& points, const FitOptions& options, Window window) {
     const bool whole = window.count >= chain.size();
     long first = whole ? 0 : window.first - 1;
     long last = whole ? chain.size() - 1 : window.first + window.count;
     if (!chain.closed) first = std::max(first, 0L), last = std::min(last, chain.size() - 1);
-    double largest = 0.0;
+    Shaped shaped;
     for (long k = first; k <= last; ++k) {
         if (!chain.at(k).corner)
-            largest = std::max(largest, quadratic_error(chain, points, k, options.corner_reach).judged);
+            shaped.add(quadratic_error(chain, points, k, options.corner_reach), kQuadraticCost, options.tolerance);
         if ((chain.closed || k < chain.sides()) && chain.at(k).line)
-            largest = std::max(largest, line_error(chain, points, k, options.corner_reach).judged);
+            shaped.add(line_error(chain, points, k, options.corner_reach), kLineCost, options.tolerance);
     }
-    return largest;
+    return shaped;
 }
 
 // --- moves that remove an element; each gives the changed chain, or nothing where it does not apply --------------
@@ -205,16 +215,21 @@ std::optional<Chain> smooth_corner(const Chain& chain, const Input& input, long 
 bool try_move(Chain& chain, const Points& points, const FitOptions& options, Move move, long k) {
     std::optional<Chain> next = move(chain, {points, options}, k);
     if (!next) return false;
+    const long gone = chain.size() - next->size();
     const Window window = about(*next, k - 2, 5);
+    const bool whole = window.count >= next->size();
+    const Shaped before = shaped_by(chain, points, options, whole ? Window{0, chain.size()}
+                                                                 : Window{window.first, window.count + gone});
     assign_points(*next, points, window);
     refine_chain(*next, points, options, window, Aim::mean_square, kRefineNear);
-    double error = window_error(*next, points, options, window);
-    if (error > 1.6 * options.tolerance) return false;
-    if (error > options.tolerance) {
+    Shaped after = shaped_by(*next, points, options, window);
+    if (after.judged > options.tolerance && after.judged < 1.6 * options.tolerance) {
         refine_chain(*next, points, options, window, Aim::largest, kRefineNear);
-        error = window_error(*next, points, options, window);
+        after = shaped_by(*next, points, options, window);
     }
-    if (error > options.tolerance) return false;
+    // Rounding a kink that is no corner may cost something; every other move has to pay.
+    const double allowed = before.cost + (move == &smooth_corner ? kQuadraticCost : 0.0);
+    if (after.judged > options.tolerance || after.cost > allowed) return false;
     chain = std::move(*next);
     return true;
 }

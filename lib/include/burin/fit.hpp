@@ -53,7 +53,7 @@ struct FitOptions {
 
     // Empty, or one weight per point, 0 or more: the confidence in a point. A point of weight 0 is not looked at, and
     // its error not counted.
-    std::span<const double> weights;
+    std::span<const double> weights = {};
 };
 
 struct FitResult {
