@@ -102,8 +102,40 @@ double closest_parameter(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess) {
     return t;
 }
 
-static PieceError error_of(const ErrorTally& tally) {
-    return {tally.finish(), tally.largest, tally.sum_of_squares, tally.counted};
+namespace {
+
+PieceError error_of(const ErrorTally& tally, long first) {
+    // Points of weight 0 are rare: `where` may then be a few points early.
+    return {tally.finish(), tally.largest, first + tally.where, tally.sum_of_squares, tally.counted};
+}
+
+double distance_to_quadratic(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess) {
+    const double t = closest_parameter(p0, p1, p2, p, guess);
+    return length(p - lerp(lerp(p0, p1, t), lerp(p1, p2, t), t));
+}
+
+double distance_to_line(Vec2 a, Vec2 b, Vec2 p) {
+    const Vec2 side = b - a;
+    const double t = std::clamp(dot(p - a, side) / std::max(dot(side, side), 1e-300), 0.0, 1.0);
+    return length(p - a - side * t);
+}
+
+}  // namespace
+
+double excess_at_corner(const Chain& chain, const Points& points, long k, double corner_reach) {
+    const PointRange range = ignored_range(chain, points, k, corner_reach);
+    const Vec2 tip = chain.position(k);
+    double most = 0.0;
+    for (long i = range.begin; i < range.end; ++i) {
+        if (points.weight(i) == 0.0) continue;
+        const Vec2 p = points[i];
+        const double before = chain.at(k - 1).line ? distance_to_line(chain.joint_out(k - 1), tip, p)
+                                                   : distance_to_quadratic(chain.joint_in(k - 1), chain.position(k - 1), tip, p, 1.0);
+        const double after = chain.at(k).line ? distance_to_line(tip, chain.joint_in(k + 1), p)
+                                              : distance_to_quadratic(tip, chain.position(k + 1), chain.joint_out(k + 1), p, 0.0);
+        most = std::max(most, std::min(before, after));
+    }
+    return most - 0.5 * corner_reach;
 }
 
 PieceError quadratic_error(const Chain& chain, const Points& points, long k, double corner_reach) {
@@ -120,7 +152,7 @@ PieceError quadratic_error(const Chain& chain, const Points& points, long k, dou
         const double e = length(points[i] - foot);
         tally.add(e);
     }
-    return error_of(tally);
+    return error_of(tally, range.begin);
 }
 
 PieceError line_error(const Chain& chain, const Points& points, long k, double corner_reach) {
@@ -138,14 +170,18 @@ PieceError line_error(const Chain& chain, const Points& points, long k, double c
         const double e = std::hypot(cross(t, p), beyond);
         tally.add(e);
     }
-    return error_of(tally);
+    return error_of(tally, range.begin);
 }
 
 namespace {
 
 // First index in [low, high] whose point lies past the joint, seen along t; the search starts at `guess`.
 long border_index(const Points& points, Vec2 joint, Vec2 t, long guess, long low, long high) {
+    // A joint moves by a few points at a time; a border that runs far has lost its joint.
+    constexpr long kMost = 16;
     long i = std::clamp(guess, low, high);
+    low = std::max(low, i - kMost);
+    high = std::min(high, i + kMost);
     while (i > low && dot(points[i - 1] - joint, t) >= 0.0) --i;
     while (i < high && dot(points[i] - joint, t) < 0.0) ++i;
     return i;

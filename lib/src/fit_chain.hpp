@@ -100,6 +100,7 @@ struct Window {
 struct ErrorTally {
     double judged = 0.0;
     double largest = 0.0;
+    long where = 0;  // count of points before the one of the largest error
     double sum_of_squares = 0.0;
     long counted = 0;
 
@@ -108,7 +109,7 @@ struct ErrorTally {
         judged = std::max(judged, std::max(std::min(last_, std::max(before_, e)), e * (1.0 / 1.5)));
         before_ = last_;
         last_ = e;
-        largest = std::max(largest, e);
+        if (e > largest) largest = e, where = counted;
         sum_of_squares += e * e;
         ++counted;
     }
@@ -121,6 +122,7 @@ struct ErrorTally {
 struct PieceError {
     double judged = 0.0;  // to be held against the tolerance
     double largest = 0.0;
+    long where = 0;  // point of the largest error
     double sum_of_squares = 0.0;
     long counted = 0;
 };
@@ -136,6 +138,9 @@ PointRange quadratic_range(const Chain& chain, const Points& points, long k, dou
 PointRange line_range(const Chain& chain, const Points& points, long k, double corner_reach);
 PieceError quadratic_error(const Chain& chain, const Points& points, long k, double corner_reach);
 PieceError line_error(const Chain& chain, const Points& points, long k, double corner_reach);
+
+// How far the points about corner k lie off its sides, beyond what a raster takes off a corner (half its reach).
+double excess_at_corner(const Chain& chain, const Points& points, long k, double corner_reach);
 
 // The distance within which a raster rounds a corner between directions `in` and `out` (unit vectors).
 double corner_radius(Vec2 in, Vec2 out, double corner_reach);

@@ -38,18 +38,17 @@ void place_joints(Chain& chain, long k, Vec2 first, Vec2 last) {
     }
 }
 
-void split_line(Chain& chain, long k) {
+// A line that does not do has a kink at its worst point, or a bend that smooth_corner will make of it.
+void split_line(Chain& chain, const Points& points, long k, long where) {
     const Vec2 first = chain.joint_out(k), last = chain.joint_in(k + 1);
-    const Vec2 old_end = chain.position(k + 1);
     Vertex middle;
-    middle.v = (first + last) * 0.5;
-    middle.begin = chain.end(k);
-    middle.end = chain.begin(k + 1);
-    chain.at(k).line = false;
+    middle.corner = true;
+    middle.line = true;
+    middle.v = points[where];
+    middle.begin = middle.end = where - chain.turn * chain.turns(k);
     chain.vertices.insert(chain.vertices.begin() + k + 1, middle);
-    static_cast<void>(old_end);
-    place_joints(chain, k, first, first);
-    place_joints(chain, k + 1, last, last);
+    place_joints(chain, k, first, middle.v);
+    place_joints(chain, k + 1, middle.v, last);
 }
 
 void split_quadratic(Chain& chain, const Points& points, long k) {
@@ -263,7 +262,10 @@ long split_missing(Chain& chain, const Points& points, const FitOptions& options
     double owed = 0.5;
     // From the back, so that an insertion leaves the numbers before it alone.
     for (long k = chain.size() - 1; k >= 0; --k) {
-        if (judged_line(chain, points, options, k) > options.tolerance) split_line(chain, k), ++splits;
+        if (judged_line(chain, points, options, k) > options.tolerance) {
+            split_line(chain, points, k, line_error(chain, points, k, options.corner_reach).where);
+            ++splits;
+        }
         const double excess = judged_quadratic(chain, points, options, k) / options.tolerance;
         if (excess <= 1.0) {
             owed = 0.5;
@@ -297,9 +299,14 @@ void repair_chain(Chain& chain, const Points& points, const FitOptions& options)
 }
 
 double judged_error(const Chain& chain, const Points& points, const FitOptions& options) {
+    const double reach = options.corner_reach;
     double worst = 0.0;
-    for (long k = 0; k < chain.size(); ++k)
-        worst = std::max({worst, judged_line(chain, points, options, k), judged_quadratic(chain, points, options, k)});
+    for (long k = 0; k < chain.size(); ++k) {
+        if (!chain.at(k).corner) worst = std::max(worst, quadratic_error(chain, points, k, reach).judged);
+        if (k < chain.sides() && chain.at(k).line) worst = std::max(worst, line_error(chain, points, k, reach).judged);
+        const bool inner = chain.closed || (k > 0 && k < chain.size() - 1);
+        if (chain.at(k).corner && inner) worst = std::max(worst, excess_at_corner(chain, points, k, reach));
+    }
     return worst;
 }
 
