@@ -81,17 +81,13 @@ BurinPiece burin_clip_main(BurinPiece piece, BurinRay ray, BurinEnd end, float s
     return burin_clip(piece, ray, end.vertex, border);
 }
 
-// The part beyond an end; empty where the end has none.
+// The part beyond an end that has one (burin_has_beyond).
 BurinPiece burin_clip_beyond(BurinPiece piece, BurinRay ray, BurinEnd end, float side, bool flank) {
     bool both = end.priority == BURIN_PRIORITY_BOTH;
     bool own = burin_own_sector(end, side);
     bool hip = both && end.shape == BURIN_END_HIP;
     bool round_end = both && end.shape == BURIN_END_ROUND;
     bool joined = own && end.shape != BURIN_CORNER_MITRE;
-    if (flank ? !hip : !(hip || round_end || joined)) {
-        piece.hi = piece.lo - 1.0f;
-        return piece;
-    }
     piece = burin_clip(piece, ray, end.vertex, -end.inward);
     piece = burin_clip(piece, ray, end.vertex, side * end.normal);
     piece.kind = BURIN_PIECE_LINEAR;
@@ -122,14 +118,28 @@ bool burin_leaves_alone(BurinPiece piece, BurinRay ray, BurinEnd end) {
     return !clipped || min(dot(a, across), dot(b, across)) >= 0.0f;
 }
 
+// Whether an end has a part beyond it on `side`; asked before the part is worked out.
+bool burin_has_beyond(BurinEnd end, float side, bool curved, bool flank) {
+    bool both = end.priority == BURIN_PRIORITY_BOTH;
+    if (flank) return both && end.shape == BURIN_END_HIP && curved;
+    if (both) return end.shape != BURIN_END_CLIP;
+    return burin_own_sector(end, side) && end.shape != BURIN_CORNER_MITRE;
+}
+
+bool burin_has_part(BurinEnd start, BurinEnd end, int part, float side, bool curved) {
+    if (part == BURIN_PART_MAIN) return true;
+    bool flank = part == BURIN_PART_START_FLANK || part == BURIN_PART_END_FLANK;
+    if (part <= BURIN_PART_START_FLANK) return burin_has_beyond(start, side, curved, flank);
+    return burin_has_beyond(end, side, curved, flank);
+}
+
 // The stretch of `whole` where part `part` acts on `side` (-1 or +1).
-BurinPiece burin_part(BurinElement e, BurinRay ray, BurinPiece whole, int part, float side) {
+BurinPiece burin_part(BurinElement e, BurinEnd start, BurinEnd end, BurinRay ray, BurinPiece whole, int part,
+                      float side) {
     BurinPiece piece = whole;
     piece.side = side;
     piece.width = 1.0f;
     piece.height = 1.0f;
-    BurinEnd start = burin_end(e, true);
-    BurinEnd end = burin_end(e, false);
     if (part == BURIN_PART_MAIN) {
         piece = burin_clip_main(piece, ray, start, side, e.curved, e.slack);
         piece = burin_clip_main(piece, ray, end, side, e.curved, e.slack);

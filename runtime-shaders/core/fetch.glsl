@@ -29,11 +29,15 @@ BurinCell burin_cell(ivec2 index) {
     return cell;
 }
 
-uint burin_reference(int index) {
-    uvec4 texel = fetch_data(burin_map.first_list + index / BURIN_REFS_PER_TEXEL);
+// Reference `index` of the list section, whose texel is `texel`: loops fetch it anew only where they enter one.
+uint burin_reference(uvec4 texel, int index) {
     int slot = index % BURIN_REFS_PER_TEXEL;
     uint word = burin_word(texel, slot / 2);
     return slot % 2 == 0 ? word & 0xffffu : word >> 16;
+}
+
+uvec4 burin_reference_texel(int index) {
+    return fetch_data(burin_map.first_list + index / BURIN_REFS_PER_TEXEL);
 }
 
 // Exact in float: 20 bits of code, a power of two, and whole tiles.
@@ -106,10 +110,17 @@ float burin_clip_slack(BurinElement e, BurinStyle style) {
     return BURIN_CLIP_ROUNDING * style.reach * max(e.scales.x, e.scales.y);
 }
 
-vec2 burin_profile_point(BurinStyle style, int i) {
-    uvec4 texel = fetch_data(style.first + i / BURIN_POINTS_PER_TEXEL);
+vec2 burin_point(uvec4 texel, int i) {
     uint word = burin_word(texel, i % BURIN_POINTS_PER_TEXEL);
     return vec2(burin_snorm16(word & 0xffffu), burin_snorm16(word >> 16));
+}
+
+uvec4 burin_point_texel(BurinStyle style, int i) {
+    return fetch_data(style.first + i / BURIN_POINTS_PER_TEXEL);
+}
+
+vec2 burin_profile_point(BurinStyle style, int i) {
+    return burin_point(burin_point_texel(style, i), i);
 }
 
 struct BurinMaterial {

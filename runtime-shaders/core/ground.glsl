@@ -37,9 +37,11 @@ BurinStepLine burin_step_line(BurinCell cell, BurinRay ray, vec2 centre, vec2 a,
     found.mark.side = 0.0f;
     found.mark.wall = vec2(0.0f, 0.0f);
     vec2 d = b - a;
+    uvec4 texel = uvec4(0u, 0u, 0u, 0u);
     for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
         if (i >= cell.count) break;
-        uint reference = burin_reference(cell.first + i);
+        if (i == 0 || (cell.first + i) % BURIN_REFS_PER_TEXEL == 0) texel = burin_reference_texel(cell.first + i);
+        uint reference = burin_reference(texel, cell.first + i);
         BurinElement e = burin_element(reference, ray.origin, centre);
         BurinStyle style = burin_style(e.style);
         if (!style.stepped) continue;

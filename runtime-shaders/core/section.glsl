@@ -65,7 +65,8 @@ float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRa
 bool burin_passes_left(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 d,
                        vec2 point, bool straight) {
     vec2 q = qa;
-    if (!straight) {
+    // Points beside the stretch need no second look.
+    if (!straight && point.x > min(qa.x, qa.x + d.x) - 0.1f && point.x < max(qa.x, qa.x + d.x) + 0.1f) {
         float share = clamp((point.y - qa.y) / min(d.y, -1.0e-20f), 0.0f, 1.0f);
         if (share > 0.0f && share < 1.0f)
             q = burin_section(e, style, piece, ray, mix(range.x, range.y, share)).q;
@@ -89,14 +90,32 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
     vec2 d = qb - qa;
     // An add ends at the ground; below it the profile says nothing about it.
     vec2 qe = mix(qa, qb, clamp((add_range.y - range.x) / (range.y - range.x), 0.0f, 1.0f));
+    float b_low = min(qa.x, qb.x);
+    float b_high = max(qa.x, qb.x);
+    uvec4 texel = uvec4(0u, 0u, 0u, 0u);
     vec2 last = vec2(0.0f, 0.0f);
     bool last_left = false;
+    bool last_known = false;
     bool last_internal = false;
     bool run_odd = false;
     for (int i = 0; i <= BURIN_MAX_PROFILE_POINTS; ++i) {
         if (i > style.count) break;
         bool internal = i > 0 && i < style.count && ((style.internal >> (i - 1)) & 1u) != 0u;
-        vec2 point = i < style.count ? burin_profile_point(style, i) : last;
+        if (i % BURIN_POINTS_PER_TEXEL == 0 && i < style.count) texel = burin_point_texel(style, i);
+        vec2 point = i < style.count ? burin_point(texel, i) : last;
+        // A facet that lies beside the stretch, with its ends on one side, says nothing about it.
+        if (i > 0 && i < style.count && (max(point.x, last.x) < b_low || min(point.x, last.x) > b_high)) {
+            if (last_internal && !internal) {
+                found.cut_at_end = found.cut_at_end || run_odd;
+                run_odd = false;
+            }
+            last = point;
+            last_known = false;
+            last_internal = internal;
+            continue;
+        }
+        if (!last_known && i > 0) last_left = burin_passes_left(e, style, piece, ray, range, qa, d, last, straight);
+        last_known = true;
         bool left = last_left;
         if (i < style.count) left = burin_passes_left(e, style, piece, ray, range, qa, d, point, straight);
         vec2 edge = point - last;

@@ -57,7 +57,8 @@ BurinSurface burin_surface(BurinHit hit) {
     piece.width = 1.0f;
     piece.height = 1.0f;
     piece.fixed_scale = true;
-    if (hit.mark.part != BURIN_PART_MAIN) piece = burin_part(e, hit.ray, piece, hit.mark.part, hit.mark.side);
+    if (hit.mark.part != BURIN_PART_MAIN)
+        piece = burin_part(e, burin_end(e, true), burin_end(e, false), hit.ray, piece, hit.mark.part, hit.mark.side);
     piece = burin_formula(e, piece, hit.mark.part);
     BurinSection section = burin_section(e, style, piece, hit.ray, hit.t);
     vec2 edge = burin_profile_point(style, s.facet + 1) - burin_profile_point(style, s.facet);

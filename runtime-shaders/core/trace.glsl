@@ -127,8 +127,9 @@ void burin_visit(uint reference, BurinRay ray, vec2 centre, vec2 stretch, float 
     whole.width = 1.0f;
     whole.height = 1.0f;
     whole.fixed_scale = true;
-    bool plain = left && right && burin_leaves_alone(whole, ray, burin_end(e, true)) &&
-                 burin_leaves_alone(whole, ray, burin_end(e, false));
+    BurinEnd start = burin_end(e, true);
+    BurinEnd end = burin_end(e, false);
+    bool plain = left && right && burin_leaves_alone(whole, ray, start) && burin_leaves_alone(whole, ray, end);
     BurinMark mark;
     mark.element = reference;
     mark.facet = BURIN_FACET_WALL;
@@ -138,8 +139,9 @@ void burin_visit(uint reference, BurinRay ray, vec2 centre, vec2 stretch, float 
         mark.part = i / 2;
         mark.side = plain ? 0.0f : (i % 2 == 0 ? -1.0f : 1.0f);
         if (!plain && !(i % 2 == 0 ? left : right)) continue;
+        if (!plain && !burin_has_part(start, end, mark.part, mark.side, e.curved)) continue;
         BurinPiece piece = whole;
-        if (!plain) piece = burin_part(e, ray, whole, mark.part, mark.side);
+        if (!plain) piece = burin_part(e, start, end, ray, whole, mark.part, mark.side);
         if (piece.hi <= piece.lo) continue;
         piece = burin_formula(e, piece, mark.part);
         burin_visit_piece(e, style, piece, ray, mark, pass);
@@ -163,9 +165,11 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
         pass.pieces = 0;
         pass.add_mark = hit.mark;
         pass.air_mark = hit.mark;
+        uvec4 texel = uvec4(0u, 0u, 0u, 0u);
         for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
             if (i >= cell.count) break;
-            burin_visit(burin_reference(cell.first + i), hit.ray, hit.centre, stretch, ground, pass);
+            if (i == 0 || (cell.first + i) % BURIN_REFS_PER_TEXEL == 0) texel = burin_reference_texel(cell.first + i);
+            burin_visit(burin_reference(texel, cell.first + i), hit.ray, hit.centre, stretch, ground, pass);
         }
         if (pass.add < pass.ground) {
             at_add = true;
