@@ -14,10 +14,11 @@ namespace {
 
 constexpr int kLengthSteps = 16;  // chords per quadratic: its length within 1 in 1000
 
-// Tells the user which stage runs and keeps the time of each.
+// Tells the user which stage runs and sums up the time of each.
 class StageClock {
   public:
-    StageClock(const Progress& progress, ConvertStats& stats) : progress_(progress), stats_(stats) {}
+    using Seconds = std::vector<std::pair<std::string, double>>;
+    StageClock(const Progress& progress, Seconds& seconds) : progress_(progress), seconds_(seconds) {}
 
     // False when the user wants to stop.
     bool begin(const char* stage) {
@@ -29,14 +30,19 @@ class StageClock {
     void end() {
         if (!stage_) return;
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun_;
-        stats_.seconds.emplace_back(stage_, spent.count());
+        // A stage that runs again, for a smaller budget or after the refinement, adds to its time.
+        const auto known = std::find_if(seconds_.begin(), seconds_.end(), [&](const auto& s) { return s.first == stage_; });
+        if (known == seconds_.end())
+            seconds_.emplace_back(stage_, spent.count());
+        else
+            known->second += spent.count();
         if (progress_) progress_(stage_, 1.0);
         stage_ = nullptr;
     }
 
   private:
     const Progress& progress_;
-    ConvertStats& stats_;
+    Seconds& seconds_;
     const char* stage_ = nullptr;
     std::chrono::steady_clock::time_point begun_;
 };
@@ -66,6 +72,10 @@ void count_elements(const ResolvedPattern& pattern, double texels_per_metre, Con
 
 // Maps of lines and plateaus come above 0.5, rock and terrain stay below 0.2.
 constexpr double kPathLikeShare = 0.35;
+constexpr double kAccidentShare = 0.1;
+
+// Even a tiny map may have a few paths.
+constexpr std::size_t kLeastBudget = 8192;
 
 // The figures of the textures as they are stored.
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
@@ -85,36 +95,23 @@ Status measure(const HeightMap& map, const PackedTextures& textures, const PathD
     return Done{};
 }
 
-// Vectorize, and refine where the refinement can follow the pattern.
-Result<Vectorized> find_paths(const HeightMap& map, const ConvertOptions& options, const Progress& progress,
-                              StageClock& clock, ConvertStats& stats) {
-    if (!clock.begin("vectorize")) return stopped();
-    VectorizeOptions vectorize = options.vectorize;
-    vectorize.threads = options.threads;
-    auto traced = vectorize_map(map, vectorize, progress);
-    if (!traced) return traced.error();
-    stats.noise = traced->noise;
-    stats.tolerance = traced->tolerance;
-    if (!options.refine || traced->pattern.paths.empty()) return traced;
-    if (!clock.begin("refine")) return stopped();
-    RefineOptions refinement = options.refinement;
-    refinement.threads = options.threads;
-    // A pattern that resolves only leniently is kept as it was traced; `refined` says so.
-    stats.refined = refine_pattern(traced->pattern, map.image, refinement).ok();
-    return traced;
-}
-
 struct Packed {
     PackedTextures textures;
     PathDetail detail;
 };
 
+std::size_t texture_bytes(const PackedTextures& textures) {
+    return (textures.grid.size() + textures.data.size()) * sizeof(std::uint32_t);
+}
+
 // Resolve, grid, pack.
 Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const ConvertOptions& options,
-                            StageClock& clock, ConvertStats& stats) {
+                            std::size_t budget, StageClock& clock, ConvertStats& stats) {
     if (!clock.begin("resolve")) return stopped();
     const auto resolved = resolve_pattern(pattern, options.resolve);
     if (!resolved) return resolved.error();
+    stats.paths = stats.lines = stats.quadratics = 0;
+    stats.path_length_texels = 0.0;
     count_elements(*resolved, map.image.width / resolved->size.x, stats);
     stats.dropped_paths = resolved->stats.dropped_paths;
     stats.repeat = resolved->wrap == Wrap::repeat;
@@ -122,6 +119,7 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     if (!clock.begin("grid")) return stopped();
     GridOptions grid_options = options.grid;
     grid_options.threads = options.threads;
+    if (grid_options.max_bytes == 0) grid_options.max_bytes = budget / 2;
     const auto grid = build_grid(*resolved, grid_options);
     if (!grid) return grid.error();
     stats.cells = grid->cols * grid->rows;
@@ -136,32 +134,98 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     return Packed{std::move(*textures), std::move(detail)};
 }
 
+// A pattern, its textures, and what they were measured to explain.
+struct Candidate {
+    Vectorized traced;
+    Packed packed;
+    ConvertStats stats;  // counts and figures of this candidate
+};
+
+Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
+                                   std::size_t budget, StageClock& clock) {
+    Candidate candidate;
+    auto packed = pack_pattern(traced.pattern, map, options, budget, clock, candidate.stats);
+    if (!packed) return packed.error();
+    if (!clock.begin("measure")) return stopped();
+    const Status measured = measure(map, packed->textures, packed->detail, options.threads, candidate.stats);
+    if (!measured) return measured.error();
+    candidate.packed = std::move(*packed);
+    candidate.traced = std::move(traced);
+    return candidate;
+}
+
+// Vectorizes with ever fewer elements until the textures keep to the budget.
+Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                               const Progress& progress, StageClock& clock) {
+    VectorizeOptions vectorize = options.vectorize;
+    vectorize.threads = options.threads;
+    for (int attempt = 0;; ++attempt) {
+        if (!clock.begin("vectorize")) return stopped();
+        auto traced = vectorize_map(map, vectorize, progress);
+        if (!traced) return traced.error();
+        auto candidate = pack_and_measure(std::move(*traced), map, options, budget, clock);
+        if (!candidate) return candidate.error();
+        const std::size_t bytes = texture_bytes(candidate->packed.textures);
+        const int elements = candidate->stats.lines + candidate->stats.quadratics;
+        if (bytes <= budget || attempt == 4 || elements <= 16) return candidate;
+        vectorize.most_elements = std::max(16, static_cast<int>(elements * 0.85 * static_cast<double>(budget) / bytes));
+    }
+}
+
+// Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
+Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options,
+                                   std::size_t budget, StageClock& clock) {
+    if (!options.refine || candidate.traced.pattern.paths.empty()) return candidate;
+    if (!clock.begin("refine")) return stopped();
+    RefineOptions refinement = options.refinement;
+    refinement.threads = options.threads;
+    Vectorized refined = candidate.traced;
+    if (!refine_pattern(refined.pattern, map.image, refinement)) return candidate;
+    auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
+    if (!better || better->stats.explained < candidate.stats.explained) return candidate;
+    better->stats.refined = true;
+    return better;
+}
+
+// Paths that explain next to nothing are accidents of rock or noise: the fallback maps show the surface better alone.
+Result<Candidate> without_accidents(Candidate candidate, const HeightMap& map, const ConvertOptions& options,
+                                    std::size_t budget, StageClock& clock) {
+    if (candidate.stats.explained >= kAccidentShare || candidate.traced.pattern.paths.empty()) return candidate;
+    Vectorized empty = candidate.traced;
+    empty.pattern.paths.clear();
+    empty.pattern.profiles.clear();
+    return pack_and_measure(std::move(empty), map, options, budget, clock);
+}
+
 }  // namespace
 
 Result<Converted> convert_map(const HeightMap& map, const Model& model, const ConvertOptions& options,
                               const Progress& progress) {
     Converted converted;
-    ConvertStats& stats = converted.stats;
-    StageClock clock(progress, stats);
-    const auto traced = find_paths(map, options, progress, clock, stats);
-    if (!traced) return traced.error();
-    const auto packed = pack_pattern(traced->pattern, map, options, clock, stats);
-    if (!packed) return packed.error();
-
-    if (!clock.begin("measure")) return stopped();
-    if (const Status measured = measure(map, packed->textures, packed->detail, options.threads, stats); !measured)
-        return measured.error();
+    std::vector<std::pair<std::string, double>> seconds;
+    StageClock clock(progress, seconds);
+    const std::size_t texels = map.image.texels.size();
+    const std::size_t budget = options.max_texture_bytes > 0 ? options.max_texture_bytes
+                                                             : std::max(kLeastBudget, texels / 16);
+    auto candidate = trace_within(map, options, budget, progress, clock);
+    if (candidate) candidate = without_accidents(std::move(*candidate), map, options, budget, clock);
+    if (candidate) candidate = refine_candidate(std::move(*candidate), map, options, budget, clock);
+    if (!candidate) return candidate.error();
 
     if (!clock.begin("bake")) return stopped();
-    const Pattern& pattern = traced->pattern;
+    const Pattern& pattern = candidate->traced.pattern;
     const Fallback fallback = bake_fallback(map.image, pattern.size, pattern.depth, pattern.wrap, options.fallback);
 
     if (!clock.begin("write")) return stopped();
-    auto bytes = write_glb(model, packed->textures, packed->detail, fallback, options.attach);
+    auto bytes = write_glb(model, candidate->packed.textures, candidate->packed.detail, fallback, options.attach);
     if (!bytes) return bytes.error();
     clock.end();
     converted.glb = std::move(*bytes);
-    stats.file_bytes = converted.glb.size();
+    converted.stats = candidate->stats;
+    converted.stats.noise = candidate->traced.noise;
+    converted.stats.tolerance = candidate->traced.tolerance;
+    converted.stats.seconds = std::move(seconds);
+    converted.stats.file_bytes = converted.glb.size();
     return converted;
 }
 

@@ -332,7 +332,7 @@ Status check_options(const HeightMap& map, const VectorizeOptions& options) {
 std::size_t element_budget(const Lattice& lattice, const VectorizeOptions& options) {
     if (options.most_elements > 0) return static_cast<std::size_t>(options.most_elements);
     const double bytes = static_cast<double>(lattice.size()) / 16.0;
-    return std::max<std::size_t>(64, static_cast<std::size_t>(std::min(bytes, 60.0 * 1024.0 + bytes / 16.0) / 44.0));
+    return std::max<std::size_t>(64, static_cast<std::size_t>(std::min(bytes, 60.0 * 1024.0 + bytes / 16.0) / 36.0));
 }
 
 }  // namespace

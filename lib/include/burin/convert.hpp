@@ -2,7 +2,7 @@
 //
 //     HeightMap + Model --[convert_map]--> bytes of OUT.glb, and what was measured on the way
 //
-//     vectorize -> refine -> resolve -> grid -> pack -> measure -> bake -> glTF
+//     vectorize -> resolve -> grid -> pack -> measure -> refine -> (again from resolve) -> bake -> glTF
 //
 // The figures are measured on the bytes that are written: the textures are unpacked again, rasterized by the evaluator
 // and compared with the map (DESIGN 7). Nothing a stage estimates stands in for them.
@@ -36,6 +36,9 @@ struct ConvertOptions {
     PackOptions pack;
     FallbackOptions fallback;
     AttachOptions attach;
+    // Both textures together; elements are given up until they fit, as far as that goes. 0: a sixteenth of the map's
+    // 8-bit size, and at least 8 KiB.
+    std::size_t max_texture_bytes = 0;
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
 
