@@ -237,7 +237,7 @@ Chain fit_points(const Points& points, const FitOptions& options) {
         if (is_loop(points) && !has_inside(chain, points)) continue;
         const double error = fit::judged_error(chain, points, options);
         if (error < least) least = error, best = std::move(chain);
-        if (least <= options.tolerance) break;
+        if (least <= 1.5 * options.tolerance) break;
     }
     if (best.vertices.empty()) return oval_of(points);
     return least > 2.0 * options.tolerance ? fit::polyline_chain(points, options) : best;

@@ -49,6 +49,7 @@ struct Vertex {
     bool line = false;
     double s0 = 0.0;
     double s1 = 0.0;
+    unsigned tried = 0;  // moves of simplify_chain that have failed here, by bit
 };
 
 struct Chain {

@@ -1,7 +1,9 @@
 // Adds joints where the tolerance is missed and removes every joint whose absence it bears.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <vector>
 
 #include "fit_chain.hpp"
 
@@ -211,18 +213,58 @@ std::optional<Chain> smooth_corner(const Chain& chain, const Input& input, long 
     return next;
 }
 
-bool try_move(Chain& chain, const Points& points, const FitOptions& options, Move move, long k) {
-    std::optional<Chain> next = move(chain, {points, options}, k);
+// A stretch of a chain as an open chain of its own: a move and its refinement then cost the same however long the chain.
+struct Stretch {
+    long first;  // number of its first vertex in the whole chain
+    Chain chain;
+};
+
+constexpr long kBefore = 6, kAfter = 7;  // vertices about the one that a move is for; the refinement moves five of them
+
+Stretch stretch_about(const Chain& chain, long k) {
+    Stretch s;
+    s.first = chain.closed ? k - kBefore : std::max(0L, k - kBefore);
+    const long last = chain.closed ? k + kAfter : std::min(chain.size() - 1, k + kAfter);
+    for (long i = s.first; i <= last; ++i) {
+        Vertex v = chain.at(i);
+        v.v = chain.position(i);
+        v.begin = chain.begin(i);
+        v.end = chain.end(i);
+        s.chain.vertices.push_back(v);
+    }
+    return s;
+}
+
+// Puts a stretch, which may have lost a vertex, back in its place.
+void put_back(Chain& chain, const Stretch& stretch, long old_size) {
+    for (long i = 0; i < stretch.chain.size(); ++i) {
+        const long k = stretch.first + i;
+        Vertex v = stretch.chain.at(i);
+        v.v = v.v - chain.period * static_cast<double>(chain.turns(k));
+        v.begin -= chain.turn * chain.turns(k);
+        v.end -= chain.turn * chain.turns(k);
+        v.tried = 0;
+        chain.at(k) = v;
+    }
+    for (long i = stretch.chain.size(); i < old_size; ++i)
+        chain.vertices.erase(chain.vertices.begin() + chain.wrap(stretch.first + stretch.chain.size()));
+}
+
+// The move at vertex k of a chain, followed by a refinement of the vertices about it; false, and the chain as it was,
+// where the move does not pay.
+bool improve_by(Chain& chain, const Input& input, Move move, long k) {
+    const auto& [points, options] = input;
+    std::optional<Chain> next = move(chain, input, k);
     if (!next) return false;
     const long gone = chain.size() - next->size();
     const Window window = about(*next, k - 2, 5);
     const bool whole = window.count >= next->size();
-    const Shaped before = shaped_by(chain, points, options, whole ? Window{0, chain.size()}
-                                                                 : Window{window.first, window.count + gone});
+    const Shaped before =
+        shaped_by(chain, points, options, whole ? Window{0, chain.size()} : Window{window.first, window.count + gone});
     assign_points(*next, points, window);
     refine_chain(*next, points, options, window, Aim::mean_square, kRefineNear);
     Shaped after = shaped_by(*next, points, options, window);
-    if (after.judged > options.tolerance && after.judged < 1.6 * options.tolerance) {
+    if (after.judged > options.tolerance && after.judged < 1.4 * options.tolerance) {
         refine_chain(*next, points, options, window, Aim::largest, kRefineNear);
         after = shaped_by(*next, points, options, window);
     }
@@ -230,6 +272,19 @@ bool try_move(Chain& chain, const Points& points, const FitOptions& options, Mov
     const double allowed = before.cost + (move == &smooth_corner ? kQuadraticCost : 0.0);
     if (after.judged > options.tolerance || after.cost > allowed) return false;
     chain = std::move(*next);
+    return true;
+}
+
+bool try_move(Chain& chain, const Input& input, Move move, long k) {
+    if (chain.size() <= kBefore + kAfter + 4) {
+        if (!improve_by(chain, input, move, k)) return false;
+        for (Vertex& v : chain.vertices) v.tried = 0;
+        return true;
+    }
+    Stretch stretch = stretch_about(chain, k);
+    const long size = stretch.chain.size();
+    if (!improve_by(stretch.chain, input, move, k - stretch.first)) return false;
+    put_back(chain, stretch, size);
     return true;
 }
 
@@ -257,14 +312,18 @@ bool misses(const Chain& chain, const Points& points, const FitOptions& options,
 // Splits pieces that miss the tolerance. The error of a quadratic falls with the fourth power of its length, so a run of
 // quadratics that all miss it by the factor e needs e^(1/4) times as many: only that share of them is split, and the
 // refinement spreads the joints. Gives the number of splits.
-long split_missing(Chain& chain, const Points& points, const FitOptions& options) {
+long split_missing(Chain& chain, const Points& points, const FitOptions& options, std::vector<bool>& missing) {
     long splits = 0;
     double owed = 0.5;
+    const auto mark = [&](long k) {
+        missing.insert(missing.begin() + k + 1, true);
+        ++splits;
+    };
     // From the back, so that an insertion leaves the numbers before it alone.
     for (long k = chain.size() - 1; k >= 0; --k) {
         if (judged_line(chain, points, options, k) > options.tolerance) {
             split_line(chain, points, k, line_error(chain, points, k, options.corner_reach).where);
-            ++splits;
+            mark(k);
         }
         const double excess = judged_quadratic(chain, points, options, k) / options.tolerance;
         if (excess <= 1.0) {
@@ -274,27 +333,61 @@ long split_missing(Chain& chain, const Points& points, const FitOptions& options
         owed += std::max(0.1, std::sqrt(std::sqrt(excess)) - 1.0);
         if (owed < 0.6) continue;
         split_quadratic(chain, points, k);
+        mark(k);
         owed = std::max(owed - 1.0, -0.5);
-        ++splits;
     }
     return splits;
 }
 
 }  // namespace
 
+namespace {
+
+// Refines every run of vertices near one that misses the tolerance.
+void refine_missing(Chain& chain, const Points& points, const FitOptions& options, const std::vector<bool>& missing,
+                    Aim aim) {
+    constexpr long kMargin = 3;
+    const long n = chain.size();
+    long since = kMargin + 1;  // vertices since the last that misses
+    long first = -1;
+    const auto close_run = [&](long end) {
+        const long begin = std::max(0L, first - kMargin);
+        const long last = std::min(n, end + kMargin);
+        const bool whole = last - begin >= n - 2;
+        refine_chain(chain, points, options, whole ? Window{0, n} : Window{begin, last - begin}, aim, kRefineNear);
+        first = -1;
+    };
+    for (long k = 0; k < n; ++k) {
+        if (missing[static_cast<std::size_t>(k)]) {
+            if (first < 0) first = k;
+            since = 0;
+        } else if (first >= 0 && ++since > 2 * kMargin) {
+            close_run(k - since + 1);
+        }
+    }
+    if (first >= 0) close_run(n - since);
+}
+
+std::vector<bool> find_missing(const Chain& chain, const Points& points, const FitOptions& options) {
+    std::vector<bool> missing;
+    for (long k = 0; k < chain.size(); ++k) missing.push_back(misses(chain, points, options, k));
+    return missing;
+}
+
+}  // namespace
+
 void repair_chain(Chain& chain, const Points& points, const FitOptions& options) {
-    const auto all = [&] { return Window{0, chain.size()}; };
-    assign_points(chain, points, all());
-    refine_chain(chain, points, options, all(), Aim::mean_square, kRefineAll);
+    assign_points(chain, points, {0, chain.size()});
+    refine_chain(chain, points, options, {0, chain.size()}, Aim::mean_square, kRefineAll);
     // 12: each round takes the error of what it splits to a sixteenth; more would split noise.
     for (int round = 0; round < 12; ++round) {
-        bool missing = false;
-        for (long k = 0; k < chain.size() && !missing; ++k) missing = misses(chain, points, options, k);
-        if (!missing) return;
-        refine_chain(chain, points, options, all(), Aim::largest, kRefineNear);
-        if (split_missing(chain, points, options) == 0) return;
-        assign_points(chain, points, all());
-        refine_chain(chain, points, options, all(), Aim::mean_square, kRefineNear);
+        std::vector<bool> missing = find_missing(chain, points, options);
+        if (std::find(missing.begin(), missing.end(), true) == missing.end()) return;
+        refine_missing(chain, points, options, missing, Aim::largest);
+        missing = find_missing(chain, points, options);
+        if (split_missing(chain, points, options, missing) == 0) return;
+        assign_points(chain, points, {0, chain.size()});
+        refine_missing(chain, points, options, missing, Aim::mean_square);
     }
 }
 
@@ -311,11 +404,22 @@ double judged_error(const Chain& chain, const Points& points, const FitOptions& 
 }
 
 void simplify_chain(Chain& chain, const Points& points, const FitOptions& options) {
+    const Input input{points, options};
+    constexpr Move kMoves[] = {&straighten, &smooth_corner, &drop_line, &join_quadratics};
     for (int pass = 0; pass < 3; ++pass) {
         bool changed = false;
-        for (const Move move : {&straighten, &smooth_corner, &drop_line, &join_quadratics})
-            for (long k = 0; k < chain.sides(); ++k)
-                while (k < chain.sides() && try_move(chain, points, options, move, k)) changed = true;
+        for (unsigned m = 0; m < std::size(kMoves); ++m) {
+            for (long k = 0; k < chain.sides(); ++k) {
+                // A move that failed is tried again only after something near has changed.
+                while (k < chain.sides() && (chain.at(k).tried >> m & 1u) == 0) {
+                    if (try_move(chain, input, kMoves[m], k)) {
+                        changed = true;
+                    } else {
+                        chain.at(k).tried |= 1u << m;
+                    }
+                }
+            }
+        }
         if (!changed) return;
     }
 }
