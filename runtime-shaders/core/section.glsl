@@ -13,7 +13,7 @@ struct BurinPass {
     float level;     // drop of the ground
     float air;       // grows: everything between the probe and it is cut away
     bool want_adds;
-    int pieces;      // stretches that could hold something, to know when one pass is enough
+    float reopen;    // no cut that was judged before `air` last grew contains a drop beyond `air` and before this one
     BurinMark add_mark;
     BurinMark air_mark;
 };
@@ -22,10 +22,15 @@ struct BurinEvents {
     float add;  // next crossing of the add's border after `add_from`
     int add_facet;
     bool add_enters;
+    bool add_tied;    // another crossing lies at the same place, so that their order says nothing
+    bool add_odd;     // number of crossings after `add_from`
     bool add_at_end;  // whether the ray lies in the add where it reaches the ground or the stretch ends
     float cut;        // the same for the cut after `cut_from`
     int cut_facet;
     bool cut_leaves;
+    bool cut_tied;
+    bool cut_odd;
+    bool cut_once;    // the stretch crosses the cut's border at most once after `cut_from`
     bool cut_at_end;  // whether the end of the stretch lies in the cut
 };
 
@@ -85,13 +90,20 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
     found.cut_facet = BURIN_FACET_WALL;
     found.add_enters = false;
     found.cut_leaves = false;
+    found.cut_once = true;
+    found.add_tied = false;
+    found.cut_tied = false;
+    found.add_odd = false;
+    found.cut_odd = false;
+    float same = BURIN_SAME_DROP * burin_map.depth;
     found.add_at_end = false;
     found.cut_at_end = false;
     vec2 d = qb - qa;
     // An add ends at the ground; below it the profile says nothing about it.
     vec2 qe = mix(qa, qb, clamp((add_range.y - range.x) / (range.y - range.x), 0.0f, 1.0f));
-    float b_low = min(qa.x, qb.x);
-    float b_high = max(qa.x, qb.x);
+    float bulge = straight ? 0.0f : 0.1f;
+    float b_low = min(qa.x, qb.x) - bulge;
+    float b_high = max(qa.x, qb.x) + bulge;
     uvec4 texel = uvec4(0u, 0u, 0u, 0u);
     vec2 last = vec2(0.0f, 0.0f);
     bool last_left = false;
@@ -141,20 +153,32 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
             if (!straddles || (fa > 0.0f) == (fb > 0.0f)) continue;
             float t = burin_crossing(e, style, piece, ray, range, vec2(fa, fb), last, across, straight);
             bool inwards = fa > 0.0f;
-            if (k == 0 && t > add_range.x && t < min(found.add, add_range.y)) {
-                found.add = t;
-                found.add_facet = i - 1;
-                found.add_enters = inwards;
+            if (k == 0 && t > add_range.x && t < add_range.y) {
+                found.add_odd = !found.add_odd;
+                found.add_tied = abs(t - found.add) < same || (found.add_tied && t > found.add);
+                if (t < found.add) {
+                    found.add = t;
+                    found.add_facet = i - 1;
+                    found.add_enters = inwards;
+                }
             }
-            if ((k == 1 || internal) && t > cut_from && t < found.cut) {
-                found.cut = t;
-                found.cut_facet = k == 0 ? i - 1 : BURIN_FACET_WALL;
-                found.cut_leaves = inwards;
+            if ((k == 1 || internal) && t > cut_from) {
+                found.cut_odd = !found.cut_odd;
+                found.cut_once = found.cut > 1.0e29f;
+                found.cut_tied = abs(t - found.cut) < same || (found.cut_tied && t > found.cut);
+                if (t < found.cut) {
+                    found.cut = t;
+                    found.cut_facet = k == 0 ? i - 1 : BURIN_FACET_WALL;
+                    found.cut_leaves = inwards;
+                }
             }
         }
         last = point;
         last_left = left;
         last_internal = internal;
     }
+    // Two facets that lie on each other, as in a slot of no width: the crossings are counted instead.
+    if (found.add_tied) found.add_enters = found.add_at_end == found.add_odd;
+    if (found.cut_tied) found.cut_leaves = found.cut_at_end != found.cut_odd;
     return found;
 }

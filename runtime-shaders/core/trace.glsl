@@ -13,19 +13,25 @@ void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ra
     }
     float margin = straight ? 1.0f : 1.25f;
     if (min(qa.x, qb.x) > margin || max(qa.x, qb.x) < -margin) return;
-    pass.pieces = pass.pieces + 1;
     float same = BURIN_SAME_DROP * burin_map.depth;
     float add_from = max(pass.from, range.x);
     vec2 add_range = vec2(add_from > pass.from ? add_from : pass.from + same, pass.ground - same);
     BurinEvents next = burin_events(e, style, piece, ray, range, qa, qb, straight, add_range, pass.air + same);
     mark.wall = range.y == piece.hi ? piece.hi_wall : vec2(0.0f, 0.0f);
-    if (range.x <= pass.air && pass.air < range.y) {
+    if (pass.air < range.y) {
         bool crossed = next.cut < 1.0e29f;
-        if (crossed ? next.cut_leaves : next.cut_at_end) {
+        bool inside = crossed ? next.cut_leaves : next.cut_at_end;
+        if (inside && range.x <= pass.air) {
             pass.air = crossed ? next.cut : range.y;
             mark.facet = next.cut_facet;
             if (crossed && mark.facet == BURIN_FACET_WALL) mark.wall = piece.gradient;
             pass.air_mark = mark;
+            // The same profile may open again further on.
+            if (crossed) pass.reopen = min(pass.reopen, next.cut_once ? 1.0e30f : next.cut);
+        } else if (inside) {
+            pass.reopen = min(pass.reopen, range.x);
+        } else if (crossed) {
+            pass.reopen = min(pass.reopen, next.cut);
         }
     }
     if (!pass.want_adds || add_from >= range.y) return;
@@ -162,7 +168,7 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
         pass.add = 1.0e30f;
         float probe = at_add ? add : pass.ground;
         pass.air = probe;
-        pass.pieces = 0;
+        pass.reopen = 1.0e30f;
         pass.add_mark = hit.mark;
         pass.air_mark = hit.mark;
         uvec4 texel = uvec4(0u, 0u, 0u, 0u);
@@ -190,8 +196,8 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
         hit.mark = pass.air_mark;
         at_add = false;
         if (at >= stretch.y) return false;
-        // A single stretch cannot be contradicted by another one.
-        if (pass.pieces == 1 && at >= ground) {
+        // Nothing that was judged before could contradict: no second pass is needed.
+        if (at >= ground && at < pass.reopen) {
             hit.t = at;
             return true;
         }
@@ -310,11 +316,17 @@ BurinHit burin_trace(BurinRay start, float t0, float t1) {
         vec2 low = vec2(index - ivec2(cell.skip, cell.skip)) * cell_size;
         vec2 high = vec2(index + ivec2(cell.skip + 1, cell.skip + 1)) * cell_size;
         float leave = max(burin_leave(hit.ray, low, high, axis), t);
-        vec2 range = vec2(t, min(leave, t1));
+        float floor_drop = max(cell.lowest + BURIN_SAME_DROP * burin_map.depth, t);
+        vec2 range = vec2(t, min(min(leave, t1), floor_drop));
         // Above the highest surface of the cell there is nothing to meet.
         if (cell.highest > range.x) range.x = min(cell.highest, range.y);
         if (leave > cell.highest || t1 <= leave) {
             if (burin_trace_cell(cell, range, hit)) return hit;
+            // Below the cell's lowest surface all is solid.
+            if (range.y < min(leave, t1)) {
+                hit.t = range.y;
+                return hit;
+            }
         }
         if (leave >= t1) {
             hit.met = false;

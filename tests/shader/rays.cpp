@@ -110,6 +110,8 @@ Verdict compare(const Truth& truth, const PreparedPattern& p, const AimedRay& ai
     double cosine = 0.0;
     for (int i = 0; i < 3; ++i) cosine += double(hit.normal[i]) * right.hit.normal[i];
     if (v.height < 2e-5 && cosine > 0.99999) v.facet_differs = false;
+    // The wall at the border of a map is the ground's.
+    if (hit.element == kDecodedGround && hit.facet == kDecodedWall && right.hit.element == kGround) v.facet_differs = false;
     v.height_differs = v.height > 1e-3;
     if (!v.facet_differs && !v.height_differs) return v;
     v.sheet = is_sheet(truth, p, aimed.ray, right, double(hit.drop));
