@@ -1,4 +1,5 @@
 // burin convert: a height map to a glb that carries it as paths with cross-sections.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -85,6 +86,7 @@ Report describe(const Arguments& arguments, const HeightMap& map, const Converte
     report.add({"rms", "RMS error", stats.rms, percent_text(stats.rms, 3) + " of range"});
     report.add({"p999", "99.9th percentile", stats.p999, percent_text(stats.p999, 3) + " of range"});
     report.add({"path_length_texels", "", stats.path_length_texels, ""});
+    report.add({"traced_explained", "", stats.traced_explained, ""});
     report.add({"path_like", "", stats.path_like, ""});
     report.add({"repeat", "", stats.repeat, ""});
     report.add({"refined", "", stats.refined, ""});
@@ -96,15 +98,16 @@ Report describe(const Arguments& arguments, const HeightMap& map, const Converte
     report.add_group("seconds", "seconds", std::move(seconds));
     Rows notes{"notes", "notes", {}};
     for (const std::string& note : map.notes) notes.rows.push_back({{"note", "note", note, ""}});
-    if (stats.paths == 0)
-        notes.rows.push_back({{"note", "note", std::string("the map holds no path: the surface is flat"), ""}});
+    const auto note = [&](const std::string& text) { notes.rows.push_back({{"note", "note", text, ""}}); };
+    // Paths that were given up count with what they explained: that number is why they were.
+    const double share = stats.paths == 0 ? stats.traced_explained : stats.explained;
+    if (map.constant)
+        note("the map is constant: it holds no path, and the surface is flat");
     else if (!stats.path_like)
-        notes.rows.push_back({{"note", "note",
-                               "the map is not path-like: the paths explain " + number_text(stats.explained) +
-                                   " of its detail; the fallback maps carry the rest", ""}});
+        note("the map is not path-like: the paths explain " + number_text(std::max(share, 0.0)) +
+             " of its detail; the fallback maps carry the rest");
     if (stats.dropped_paths > 0)
-        notes.rows.push_back(
-            {{"note", "note", std::to_string(stats.dropped_paths) + " traced paths could not be joined and were left out", ""}});
+        note(std::to_string(stats.dropped_paths) + " traced paths could not be joined and were left out");
     report.add_rows(std::move(notes));
     return report;
 }

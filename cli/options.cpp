@@ -58,7 +58,7 @@ std::string plain(double value) {
 }
 
 std::string with_unit(const OptionSpec& spec, const std::string& text) {
-    return *spec.unit ? text + " " + spec.unit : text;
+    return *spec.unit ? text + ' ' + spec.unit : text;
 }
 
 // "1e-06 to 1000 m", "one of height, depth": what a message offers and --help shows.
@@ -171,9 +171,10 @@ Status take_values(const Collected& collected, Arguments& arguments) {
     for (const auto& [name, texts] : collected.texts) {
         if (texts.empty()) continue;
         const OptionSpec& spec = *find_option(arguments.command, name);
+        for (const std::string& text : texts)
+            if (find_option(arguments.command, text))
+                return refuse(name + " needs a " + spec.argument + ", but the option " + text + " follows");
         if (texts.size() > 1) return refuse(name + " is given " + std::to_string(texts.size()) + " times; once works");
-        if (find_option(arguments.command, texts[0]))
-            return refuse(name + " needs a " + spec.argument + ", but the option " + texts[0] + " follows");
         if (const Status checked = check_value(spec, texts[0]); !checked) return checked.error();
         arguments.values[name] = texts[0];
     }

@@ -208,6 +208,7 @@ Result<Converted> convert_map(const HeightMap& map, const Model& model, const Co
     const std::size_t budget = options.max_texture_bytes > 0 ? options.max_texture_bytes
                                                              : std::max(kLeastBudget, texels / 16);
     auto candidate = trace_within(map, options, budget, progress, clock);
+    const double traced_explained = candidate ? candidate->stats.explained : 0.0;
     if (candidate) candidate = without_accidents(std::move(*candidate), map, options, budget, clock);
     if (candidate) candidate = refine_candidate(std::move(*candidate), map, options, budget, clock);
     if (!candidate) return candidate.error();
@@ -222,6 +223,7 @@ Result<Converted> convert_map(const HeightMap& map, const Model& model, const Co
     clock.end();
     converted.glb = std::move(*bytes);
     converted.stats = candidate->stats;
+    converted.stats.traced_explained = traced_explained;
     converted.stats.noise = candidate->traced.noise;
     converted.stats.tolerance = candidate->traced.tolerance;
     converted.stats.seconds = std::move(seconds);

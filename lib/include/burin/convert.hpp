@@ -54,6 +54,7 @@ struct ConvertStats {
     bool repeat = true;                   // the pattern tiles
     bool path_like = true;                // false: the paths carry only a little of the map
     double explained = 0.0;               // DESIGN 7, paths alone
+    double traced_explained = 0.0;        // before refining, and before paths that explain next to nothing were given up
     double rms = 0.0, p999 = 0.0, max = 0.0;  // height errors as shares of the range
     std::vector<std::pair<std::string, double>> seconds;  // per stage, in order
 };
