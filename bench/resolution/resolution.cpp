@@ -130,7 +130,8 @@ void write_picture(const std::string& request, const Image& map, const std::vect
                     60.0f + 180.0f * map.at(std::min(x0 + x / kEnlarge, map.width - 1), std::min(y0 + y / kEnlarge, map.height - 1)));
     const auto draw = [&](const std::vector<Segment>& lines, int r, int g, int b) {
         for (const Segment& s : lines) {
-            for (const Vec2 p : {s.a, s.b}) {
+            for (int k = 0; k <= 16; ++k) {
+                const Vec2 p = lerp(s.a, s.b, k / 16.0);
                 const int x = static_cast<int>((p.x - x0) * kEnlarge), y = static_cast<int>((p.y - y0) * kEnlarge);
                 if (x < 0 || y < 0 || x >= pixels || y >= pixels) continue;
                 unsigned char* t = &rgb[(static_cast<std::size_t>(y) * pixels + x) * 3];

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include <burin/resolve.hpp>
 
+#include "refine_curves.hpp"
+#include "refine_ends.hpp"
 #include "refine_forward.hpp"
 #include "refine_parameters.hpp"
 #include "refine_simplify.hpp"
@@ -23,6 +26,12 @@ constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e4;
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
+constexpr double kRoughThreshold = 0.05;    // Huber's, before anything is fitted
+constexpr int kSplitRounds = 2;
+constexpr double kSplitMustGain = 0.95;      // of the misfit
+constexpr double kStrain = 0.02;             // texels, root mean square: an arc that is farther off is split
+constexpr double kShortestSplit = 6.0;       // texels
+constexpr double kTorn = 0.1;                // map scale
 constexpr double kSettled = 1e-4;  // relative gain of a step below which the iteration ends
 
 // The pattern in texels of the map's width, heights in map scale: white 1, black 0.
@@ -43,26 +52,17 @@ Pattern to_texels(const Pattern& pattern, double texel) {
     return out;
 }
 
-// Writes the refined numbers back into the pattern in metres.
-void from_texels(const Pattern& refined, double texel, Pattern& pattern) {
+// Writes the refined paths and profiles back into the pattern in metres.
+void from_texels(Pattern refined, double texel, Pattern& pattern) {
     const auto metres = [&](double value) { return pattern.base_offset + (value - 1.0) * pattern.depth; };
     pattern.outer_level = metres(refined.outer_level);
-    for (std::size_t i = 0; i < pattern.profiles.size(); ++i) {
-        pattern.profiles[i].points.resize(refined.profiles[i].points.size());
-        for (std::size_t k = 0; k < pattern.profiles[i].points.size(); ++k) {
-            pattern.profiles[i].points[k].b = refined.profiles[i].points[k].b * texel;
-            pattern.profiles[i].points[k].h = refined.profiles[i].points[k].h * pattern.depth;
-        }
-    }
-    for (std::size_t p = 0; p < pattern.paths.size(); ++p) {
-        pattern.paths[p].level = metres(refined.paths[p].level);
-        for (std::size_t i = 0; i < pattern.paths[p].elements.size(); ++i) {
-            Element e = refined.paths[p].elements[i];
-            const Vec2 unused = pattern.paths[p].elements[i].p1;
-            e.p0 = e.p0 * texel, e.p2 = e.p2 * texel;
-            e.p1 = e.kind == ElementKind::line ? unused : e.p1 * texel;
-            pattern.paths[p].elements[i] = e;
-        }
+    pattern.profiles = std::move(refined.profiles);
+    pattern.paths = std::move(refined.paths);
+    for (Profile& profile : pattern.profiles)
+        for (ProfilePoint& point : profile.points) point.b *= texel, point.h *= pattern.depth;
+    for (Path& path : pattern.paths) {
+        path.level = metres(path.level);
+        for (Element& e : path.elements) e.p0 = e.p0 * texel, e.p1 = e.p1 * texel, e.p2 = e.p2 * texel;
     }
 }
 
@@ -72,11 +72,11 @@ double root_mean_square(const std::vector<Residual>& residuals) {
     return residuals.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(residuals.size()));
 }
 
-// Standard deviation of the residuals on walls, where misplacement shows; outliers do not count.
-double deviation_of(const std::vector<Residual>& residuals) {
+// Standard deviation of the residuals on walls, where misplacement shows, or off them; outliers do not count.
+double deviation_of(const std::vector<Residual>& residuals, bool on_walls = true) {
     std::vector<float> magnitudes;
     for (const Residual& r : residuals)
-        if (r.steep) magnitudes.push_back(std::abs(r.value));
+        if (r.steep() == on_walls) magnitudes.push_back(std::abs(r.value));
     if (magnitudes.empty()) return kLeastDeviation;
     const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
     std::nth_element(magnitudes.begin(), middle, magnitudes.end());
@@ -148,6 +148,22 @@ class Refinement {
         return best;
     }
 
+    // The pattern with ends where the map shows them, or as it is when that fits no better.
+    Pattern with_settled_ends(const Pattern& pattern) const {
+        Pattern settled = pattern;
+        if (!settle_ends(settled, map_, side_)) return pattern;
+        const Result<double> before = misfit(pattern, kRoughThreshold), after = misfit(settled, kRoughThreshold);
+        return before && after && *after < *before ? settled : pattern;
+    }
+
+    // The pattern with curves for the polylines that go round, unless that fits worse.
+    Pattern with_curves(const Pattern& pattern) const {
+        Pattern curved = pattern;
+        if (!curve_polylines(curved)) return pattern;
+        const Result<double> before = misfit(pattern, kRoughThreshold), after = misfit(curved, kRoughThreshold);
+        return before && after && *after < *before ? curved : pattern;
+    }
+
     // Robust misfit over the whole map: patterns whose features cover different texels compare fairly.
     Result<double> misfit(const Pattern& pattern, double threshold) const {
         const Result<ResolvedPattern> resolved = resolve_pattern(pattern, resolve_options());
@@ -201,26 +217,71 @@ std::optional<Error> fault_of(const Pattern& pattern, const Image& map, const Re
     return damage_of(pattern);
 }
 
+// Quadratics that leave the map by more than its noise accounts for: too few for the arc they follow.
+std::vector<ElementIndex> strained_quadratics(const State& state) {
+    struct Sums {
+        double squares = 0.0, slopes = 0.0, count = 0.0;
+    };
+    std::map<std::pair<int, int>, Sums> sums;
+    for (const Residual& r : state.prediction.residuals) {
+        if (!r.steep()) continue;
+        const ElementUnknowns& element = state.elements[static_cast<std::size_t>(r.element)];
+        if (element.path < 0) continue;
+        Sums& sum = sums[{element.path, element.element}];
+        // One torn texel does not make a strained arc.
+        const double value = std::min(double(std::abs(r.value)), kTorn);
+        sum.squares += value * value;
+        sum.slopes += double(r.slope) * r.slope;
+        sum.count += 1.0;
+    }
+    const double noise = deviation_of(state.prediction.residuals, false);
+    std::vector<ElementIndex> strained;
+    for (const auto& [index, sum] : sums) {
+        const Element& e = state.pattern.paths[index.first].elements[index.second];
+        if (e.kind != ElementKind::quadratic || length(e.p2 - e.p0) < kShortestSplit || sum.count < 10.0) continue;
+        const double off = std::sqrt(sum.squares / sum.slopes);
+        if (off > std::max(kStrain, 3.0 * noise * std::sqrt(sum.count / sum.slopes)))
+            strained.push_back({index.first, index.second});
+    }
+    return strained;
+}
+
+// Refines `candidate` and puts it in the place of `best` when its misfit is at most `share` of the best one's.
+bool keep_better(const Refinement& refinement, const Pattern& candidate, double share, State& best,
+                 RefineReport& report) {
+    RefineReport trial = report;
+    Result<State> state = refinement.run(candidate, trial);
+    if (!state) return false;
+    const double threshold = threshold_of(deviation_of(best.prediction.residuals));
+    const Result<double> before = refinement.misfit(best.pattern, threshold);
+    const Result<double> after = refinement.misfit(state->pattern, threshold);
+    if (!before || !after || *after > share * *before) return false;
+    report.iterations = trial.iterations;
+    report.unknowns = trial.unknowns;
+    best = std::move(*state);
+    return true;
+}
+
 // First with the profiles as they came, symmetric ones made so; then, where it costs little, with fewer points: a
 // section measured through the blur of the texels has rounded corners, which the first stage has straightened.
 Result<State> refine_in_stages(const Refinement& refinement, const Pattern& start, const RefineOptions& options,
                                RefineReport& report) {
     Pattern first = start;
     if (options.profiles) make_symmetric(first);
+    if (options.ends) first = refinement.with_settled_ends(first);
+    if (options.elements) first = refinement.with_curves(first);
     Result<State> best = refinement.run(first, report);
     if (!best) return best;
     Pattern simpler = best->pattern;
-    if (!options.profiles || !simplify_profiles(simpler)) return best;
-    RefineReport second = report;
-    Result<State> shorter = refinement.run(simpler, second);
-    if (!shorter) return best;
-    const double threshold = threshold_of(deviation_of(best->prediction.residuals));
-    const Result<double> cost = refinement.misfit(best->pattern, threshold);
-    const Result<double> shorter_cost = refinement.misfit(shorter->pattern, threshold);
-    if (!cost || !shorter_cost || *shorter_cost > kSimplerMayCost * *cost) return best;
-    report.iterations = second.iterations;
-    report.unknowns = second.unknowns;
-    return shorter;
+    if (options.profiles && simplify_profiles(simpler)) keep_better(refinement, simpler, kSimplerMayCost, *best, report);
+    for (int round = 0; round < kSplitRounds && options.positions && options.elements; ++round) {
+        const std::vector<ElementIndex> strained = strained_quadratics(*best);
+        if (strained.empty()) break;
+        Pattern split = best->pattern;
+        split_quadratics(split, strained);
+        if (!keep_better(refinement, split, kSplitMustGain, *best, report)) break;
+    }
+    return best;
 }
 
 }  // namespace

@@ -266,17 +266,24 @@ class Summation {
         sum_.gradients.resize(unknowns.size());
     }
 
-    // residual = model - map. Returns whether the model's value depends on some element's place.
-    bool add(TexelModel& texel, double residual, double robust) {
+    // residual = model - map.
+    Residual add(TexelModel& texel, double residual, double robust) {
         const double magnitude = std::abs(residual);
         const double weight = magnitude <= robust ? 1.0 : robust / magnitude;
         used_.clear();
-        bool steep = false;
+        Residual entry{static_cast<float>(residual), 0.0f, -1};
+        double steepest = kFlat;
         for (std::size_t i = 0; i < texel.count(); ++i) {
             Candidate& c = texel.candidate(i);
             if (!c.used) continue;
-            reduce(layout_.instances[c.instance].element, c.local.data());
-            for (int k = 0; k < 6; ++k) steep |= std::abs(c.local[kPoints + k]) > kFlat;
+            const std::uint32_t element = layout_.instances[c.instance].element;
+            reduce(element, c.local.data());
+            const double* p = c.local.data() + kPoints;
+            const double slope = std::hypot(p[0] + p[2] + p[4], p[1] + p[3] + p[5]);
+            if (slope <= steepest) continue;
+            steepest = slope;
+            entry.slope = static_cast<float>(slope);
+            entry.element = static_cast<std::int32_t>(element);
         }
         for (std::size_t i = 0; i < used_.size(); ++i) {
             const Row& row = rows_[i];
@@ -285,7 +292,7 @@ class Summation {
             for (std::size_t k = 0; k < row.size(); ++k) gradient[k] += weight * residual * row[k];
             for (std::size_t j = i; j < used_.size(); ++j) add_pair(i, j, weight);
         }
-        return steep;
+        return entry;
     }
 
     Equations take() { return std::move(sum_); }
@@ -394,8 +401,7 @@ Prediction Forward::predict(const std::vector<ElementUnknowns>& unknowns, const 
         scene.for_texels(part, [&](int x, int y) {
             if (!texel.gather(x, y)) return;
             const double residual = texel.mean() - scene.map.at(x, y);
-            const bool steep = summation.add(texel, residual, options.robust);
-            residuals[part].push_back({static_cast<float>(residual), steep});
+            residuals[part].push_back(summation.add(texel, residual, options.robust));
         });
         prediction.parts[part] = summation.take();
     });

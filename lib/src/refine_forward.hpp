@@ -33,7 +33,8 @@ struct LocalTerm {
 };
 
 struct ElementUnknowns {
-    std::vector<int> unknowns;  // ascending
+    int path = -1, element = -1;  // of the pattern, where it came from; -1: a piece of resolve's own
+    std::vector<int> unknowns;    // ascending
     std::vector<LocalTerm> terms;
 };
 
@@ -50,7 +51,9 @@ struct Equations {
 
 struct Residual {
     float value = 0.0f;
-    bool steep = false;  // the model's value depends on some element's place
+    float slope = 0.0f;              // change of the model's value per texel that the element below moves sideways
+    std::int32_t element = -1;       // the resolved element whose place matters most; -1: flat
+    bool steep() const { return element >= 0; }
 };
 
 struct Prediction {

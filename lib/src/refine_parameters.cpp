@@ -464,7 +464,8 @@ std::vector<ElementUnknowns> Parameters::of_elements(const Pattern& pattern, con
         const Style& style = resolved.styles[element.style];
         const std::uint32_t profile_index = pattern.paths[element.path].profile;
         const std::size_t points = resolved.profiles[style.profile].points.size();
-        if (const std::optional<Stretch> stretch = finder.find(element)) {
+        const std::optional<Stretch> stretch = finder.find(element);
+        if (stretch) {
             const bool line = element.element.kind == ElementKind::line;
             const auto weights = stretch_weights(line, *stretch);
             for (int k = 0; k < 3; ++k) {
@@ -507,6 +508,9 @@ std::vector<ElementUnknowns> Parameters::of_elements(const Pattern& pattern, con
             }
         }
         out.push_back(collect.finish());
+        if (!stretch) continue;
+        out.back().path = static_cast<int>(element.path);
+        out.back().element = stretch->element;
     }
     return out;
 }

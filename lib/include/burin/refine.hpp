@@ -21,6 +21,12 @@ struct RefineOptions {
     bool positions = true;            // control points, junctions, ends
     bool profiles = true;             // offsets b and heights h of the profiles
     bool levels = true;               // levels of the regions
+    // Before the fit: ends of grooves and ridges are drawn out, taken back or joined as the map shows them. This may
+    // add a line to a path and take away a small closed step that a drawn-out path explains.
+    bool ends = true;
+    // Polylines that go round become quadratics before the fit; quadratics that the map shows to be too few for their
+    // arc (off by more than 0.02 texels and the noise) are split after it.
+    bool elements = true;
     bool scales = true;               // width and height scales, of paths that have any other than 1
     // Ends nearer than this to another path's line lie on it and stay on it; metres as a fraction of the larger side,
     // as ResolveOptions::snap. Range [0, 0.01].
@@ -39,7 +45,7 @@ struct RefineReport {
     double largest_shift_texels = 0;  // of any control point
 };
 
-// What is kept: the number of paths and elements and their kinds; ends that coincide coincide, and neighbours share
+// What is kept (apart from what `ends` and `elements` do): the number of paths and elements and their kinds; ends that coincide coincide, and neighbours share
 // their point bit by bit; an end on another path's line slides along it (T); smooth joints (below
 // ResolveOptions::smooth_angle, with a quadratic at one side) stay tangent; collinear neighbours stay collinear; ends
 // on the border of a clamped pattern slide along the border; a profile is one for all its paths; symmetric profiles
