@@ -27,14 +27,6 @@ void move_end(Work& work, EndKey key, Vec2 to) {
 
 PathEnd& end_of(Work& work, EndKey key) { return work.paths[key.path].end[key.which]; }
 
-// The copy of `target` nearest to p.
-Vec2 copy_near(const Work& work, Vec2 target, Vec2 p) {
-    if (!work.repeats()) return target;
-    const Vec2 size = work.pattern.size;
-    return {target.x + std::round((p.x - target.x) / size.x) * size.x,
-            target.y + std::round((p.y - target.y) / size.y) * size.y};
-}
-
 double path_length(const WorkPath& path) {
     double sum = 0.0;
     for (const Element& e : path.elements) sum += curve::arc_length(e);
@@ -138,6 +130,8 @@ struct Foot {
     bool step = false;
     double distance = 1e300;
     Vec2 position, tangent;
+    std::size_t path = 0, element = 0;
+    double s = 0.0;
 };
 
 // Point and tangent of the path at parameter s of an element; near a vertex inside the path the vertex itself.
@@ -192,6 +186,7 @@ Foot foot_of_cluster(const Work& work, const ChordIndex& index, const std::vecto
         foot.distance = length(curve::point(path.elements[chord.element], s) + by - p);
         foot.step = path.step;
         foot.found = true;
+        foot.path = chord.path, foot.element = chord.element, foot.s = s;
         if (foot.distance > reach || is_own_end(work, path, number, chord.element, foot.position)) return;
         // A step's line bounds what acts; it goes before a groove that passes here too.
         if (!best.found || std::pair(!foot.step, foot.distance) < std::pair(!best.step, best.distance)) best = foot;
@@ -208,6 +203,7 @@ void attach_to_paths(Work& work, const std::vector<std::vector<EndKey>>& cluster
             PathEnd& end = end_of(work, key);
             end.on_path = true;
             end.clip = foot.tangent;
+            end.target = foot.path, end.target_element = foot.element, end.target_s = foot.s;
             move_end(work, key, copy_near(work, foot.position, position_of(work, key)));
         }
         if (record) work.junctions.push_back({JunctionKind::tee, wrapped(work, foot.position)});
@@ -222,15 +218,20 @@ Vec2 outgoing(const Work& work, EndKey key) {
 
 // Grooves that end where steps meet run up to the line the steps make there.
 void attach_grooves_to_step_ends(Work& work, const std::vector<EndKey>& cluster) {
-    std::vector<Vec2> steps;
+    std::vector<EndKey> steps;
     for (const EndKey& key : cluster)
-        if (work.paths[key.path].step) steps.push_back(outgoing(work, key));
+        if (work.paths[key.path].step) steps.push_back(key);
     if (steps.empty() || steps.size() == cluster.size()) return;
+    const WorkPath& target = work.paths[steps[0].path];
+    const Vec2 first = outgoing(work, steps[0]);
     for (const EndKey& key : cluster) {
         PathEnd& end = end_of(work, key);
         if (work.paths[key.path].step || end.on_path) continue;
         end.on_path = true;
-        end.clip = steps.size() > 1 ? unit(steps[0] - steps[1]) : steps[0];
+        end.clip = steps.size() > 1 ? unit(first - outgoing(work, steps[1])) : first;
+        end.target = steps[0].path;
+        end.target_element = steps[0].which == 0 ? 0 : target.elements.size() - 1;
+        end.target_s = steps[0].which;
     }
 }
 

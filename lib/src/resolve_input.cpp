@@ -232,6 +232,13 @@ Vec2 wrapped(const Work& work, Vec2 p) {
     return inside;
 }
 
+Vec2 copy_near(const Work& work, Vec2 target, Vec2 p) {
+    if (!work.repeats()) return target;
+    const Vec2 size = work.pattern.size;
+    return {target.x + std::round((p.x - target.x) / size.x) * size.x,
+            target.y + std::round((p.y - target.y) / size.y) * size.y};
+}
+
 Status prepare(Work& work) {
     const Pattern& pattern = work.pattern;
     if (const Status status = check_options(work.options); !status.ok()) return status;

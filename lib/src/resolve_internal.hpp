@@ -3,7 +3,8 @@
 // The stage works on WorkPaths, copies of the pattern's paths whose elements may move (snapping) and split:
 //   resolve_profile.cpp  facets of a profile         resolve_input.cpp   checks, cleaning
 //   resolve_chords.*     chords in buckets, exact crossings, nearest points
-//   resolve_ends.cpp     ends that meet, T-junctions  resolve_ground.cpp  splits at steps, levels
+//   resolve_ends.cpp     ends that meet, T-junctions  resolve_crossings.cpp  what crosses what
+//   resolve_split.cpp    grooves split at steps       resolve_ground.cpp  levels
 //   resolve_joints.cpp   priorities                   resolve_output.cpp  cutting to the tile, numbering
 #pragma once
 
@@ -28,7 +29,10 @@ struct PathEnd {
     bool on_path = false;  // lies on another path's interior: `clip` is that path's tangent
     bool on_border = false;   // clamped maps: on the border, `clip` is its direction
     bool outside = false;     // clamped maps: beyond the border
+    bool extended = false;    // reaches beyond the step it ends on, whose line bounds it by the level
     Vec2 clip;
+    std::size_t target = 0, target_element = 0;  // with on_path: what it lies on
+    double target_s = 0.0;
 };
 
 struct WorkPath {
@@ -44,6 +48,7 @@ struct WorkPath {
     std::vector<Element> elements;
     std::vector<ElementEnd> starts, ends;   // parallel to elements, once the joints are known
     std::vector<char> region_starts;        // parallel to elements: a step's line was crossed before this element
+    std::vector<std::vector<Vec2>> samples; // per run between steps: points that lie in its region
     std::vector<double> levels;             // parallel to elements, once the ground is known
 };
 
@@ -74,15 +79,27 @@ bool tolerate(Work& work, const std::string& message);
 // Arcs as chords, path by path in order.
 std::vector<Chord> flatten(const Work& work, bool steps_only);
 
-// Ends that meet, ends on other paths: moves them together. Ends that fade out get their taper. Bad step ends are named in `errors` by path index.
+// Ends that meet, ends on other paths: moves them together. Ends that fade out get their taper. Bad step ends are
+// named by path index.
 struct PathError {
     std::size_t path = 0;
     std::string message;
 };
 std::vector<PathError> connect_ends(Work& work);
 
-// Crossings of paths: junctions, and splits of grooves at steps. Crossings of steps are errors.
+// A crossing of two arcs; parameters on the elements, position near the first path.
+struct ArcCrossing {
+    std::uint32_t path[2], element[2];
+    double s[2];
+    Vec2 position;
+};
+// All crossings of paths, without those at ends that were joined; touches are left out.
+std::vector<ArcCrossing> find_arc_crossings(const Work& work);
+
+// Records crossings as junctions and splits grooves at steps. Crossings of steps are errors.
 std::vector<PathError> split_at_steps(Work& work);
+// Tangent of a path at a parameter; at a vertex inside the path the mean of both sides.
+Vec2 tangent_at(const Work& work, const WorkPath& path, std::size_t element, double s);
 // Level of every element: the ground its run between steps lies in.
 void find_levels(Work& work);
 
@@ -99,5 +116,7 @@ Result<ResolvedPattern> assemble(Work& work);
 // A direction as the angle of an undirected line, [0, pi).
 double line_angle(Vec2 direction);
 Vec2 wrapped(const Work& work, Vec2 p);
+// The copy of `target` nearest to p; target itself when clamped.
+Vec2 copy_near(const Work& work, Vec2 target, Vec2 p);
 
 }  // namespace burin::resolving

@@ -106,6 +106,7 @@ void join_cluster(Work& work, const std::vector<EndRef>& ends) {
         WorkPath& path = work.paths[ref.path];
         const PathEnd& end = path.end[ref.which];
         Arm arm = arm_of(path, ref.which == 0 ? 0 : path.elements.size() - 1, ref.which == 0);
+        if (end.extended) continue;
         if (end.on_path || end.on_border)
             *arm.end = clip_or_hip(arm.outgoing, end.clip);
         else

@@ -117,7 +117,8 @@ struct ResolveOptions {
 
 // The level of two sides of one region may differ by rounding: compare levels with a tolerance of depth / 4096.
 //
-// Ensures: elements that cross a step's path line are split there and carry the level of their side; elements that
+// Ensures: elements that cross a step's path line are split there and carry the level of their side (where the step bends
+// within the strip or is met at under 7 degrees both pieces reach beyond it, butt-ended, and the level bounds them); elements that
 // leave [-0.5, 1.5) of the tile are split; a quadratic turns by at most 90 degrees; every end has its priority; output
 // depends on the input alone. An open end on the border of a clamped map runs to it; a step path may end there.
 // Fails with invalid_input, naming path and position: a path that does not connect, an index out of range, a profile
