@@ -172,6 +172,20 @@ Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& optio
     }
 }
 
+// A step of the refinement looks at every texel within reach of every element: with wide profiles on long paths fewer
+// steps have to do. The count depends on the pattern alone, so that the bytes do not depend on the machine.
+int affordable_iterations(const Pattern& pattern, const Image& map, int most) {
+    const double texels = map.width / pattern.size.x;
+    double work = 1.0;
+    for (const Path& path : pattern.paths) {
+        const std::vector<ProfilePoint>& points = pattern.profiles[path.profile].points;
+        const double reach = (points.back().b - points.front().b) * texels + 2.0;
+        for (const Element& element : path.elements) work += length_of(element) * texels * reach;
+    }
+    constexpr double kWork = 8e6;  // texels times steps: some seconds
+    return std::min(most, std::clamp(static_cast<int>(kWork / work), 3, 12));
+}
+
 // Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
 Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
@@ -179,6 +193,7 @@ Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, co
     if (!clock.begin("refine")) return stopped();
     RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
+    refinement.iterations = affordable_iterations(candidate.traced.pattern, map.image, refinement.iterations);
     Vectorized refined = candidate.traced;
     if (!refine_pattern(refined.pattern, map.image, refinement)) return candidate;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
