@@ -10,20 +10,24 @@ using Vec3 = std::array<double, 3>;
 
 std::uint32_t word_at(const std::vector<std::uint8_t>& bytes, std::uint64_t at) {
     std::uint32_t value = 0;
-    for (int i = 0; i < 4; ++i) value |= static_cast<std::uint32_t>(bytes[at + static_cast<std::uint64_t>(i)]) << (8 * i);
+    for (int i = 0; i < 4; ++i)
+        value |= static_cast<std::uint32_t>(bytes[at + static_cast<std::uint64_t>(i)]) << (8 * i);
     return value;
 }
 
 // Words of a texture from its bufferView.
-Result<std::vector<std::uint32_t>> read_words(const ModelData& model, int view_index, std::uint64_t words, const std::string& where) {
+Result<std::vector<std::uint32_t>> read_words(const ModelData& model, int view_index, std::uint64_t words,
+                                              const std::string& where) {
     const Json& views = array_of(model.document, "bufferViews");
     if (view_index < 0 || static_cast<std::size_t>(view_index) >= views.size())
-        return model_error(where + ": bufferView is " + std::to_string(view_index) + ", there are " + std::to_string(views.size()));
+        return model_error(where + ": bufferView is " + std::to_string(view_index) + ", there are " +
+                           std::to_string(views.size()));
     const Json& view = views[static_cast<std::size_t>(view_index)];
     const std::uint64_t length = unsigned_or(view, "byteLength", 0);
     if (view.contains("byteStride")) return model_error(where + ": its bufferView has a byteStride");
     if (length < words * 4)
-        return model_error(where + ": its bufferView has " + std::to_string(length) + " bytes, its texels " + std::to_string(words * 4));
+        return model_error(where + ": its bufferView has " + std::to_string(length) + " bytes, its texels " +
+                           std::to_string(words * 4));
     const auto& bytes = model.buffers[unsigned_or(view, "buffer", 0)];
     const std::uint64_t begin = unsigned_or(view, "byteOffset", 0);
     std::vector<std::uint32_t> result(words);
@@ -38,7 +42,9 @@ Status read_textures(const ModelData& model, const std::string& where, MaterialI
     t.data_width = info.detail.data_width;
     t.data_height = info.detail.data_height;
     t.sections = info.detail.sections;
-    const auto texels = [](int w, int h) { return static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h); };
+    const auto texels = [](int w, int h) {
+        return static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h);
+    };
     Result<std::vector<std::uint32_t>> grid =
         read_words(model, info.detail.grid_view, 2 * texels(t.grid_width, t.grid_height), where + ".grid");
     if (!grid.ok()) return grid.error();
@@ -64,10 +70,13 @@ Result<MaterialInfo> read_material(const ModelData& model, std::size_t index) {
             if (color[i].is_number()) info.base_color[i] = color[i].get<float>();
     }
     const Json* extensions = find_member(material, "extensions");
-    const Json* extension = extensions == nullptr ? nullptr : find_member(*extensions, std::string(kPathDetailExtension).c_str());
+    const Json* extension =
+        extensions == nullptr ? nullptr : find_member(*extensions, std::string(kPathDetailExtension).c_str());
     if (extension == nullptr) return info;
-    const std::string where = place(model.document, "materials", index) + "." + std::string(kPathDetailExtension);
-    Result<PathDetail> detail = parse_extension(extension->dump(-1, ' ', false, Json::error_handler_t::replace));
+    const std::string where =
+        place(model.document, "materials", index) + "." + std::string(kPathDetailExtension);
+    Result<PathDetail> detail =
+        parse_extension(extension->dump(-1, ' ', false, Json::error_handler_t::replace));
     if (!detail.ok()) return Error{detail.error().code, where + ": " + detail.error().message};
     info.detail = *detail;
     info.has_detail = true;
@@ -76,11 +85,12 @@ Result<MaterialInfo> read_material(const ModelData& model, std::size_t index) {
 }
 
 double determinant(const Matrix& m) {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
+           m[8] * (m[1] * m[6] - m[2] * m[5]);
 }
 
-// Cofactors of the upper 3 x 3 part: the inverse transpose times the determinant, right for normals even when the
-// scale is not uniform, and defined when the matrix has no inverse.
+// Cofactors of the upper 3 x 3 part: the inverse transpose times the determinant, right for normals even when
+// the scale is not uniform, and defined when the matrix has no inverse.
 std::array<double, 9> normal_matrix(const Matrix& m) {
     const auto c = [&](int i, int j) { return m[static_cast<std::size_t>(4 * j + i)]; };
     std::array<double, 9> n{};
@@ -103,7 +113,8 @@ void transform_vertices(const Matrix& m, Primitive& primitive) {
     for (std::size_t i = 0; i + 2 < primitive.positions.size(); i += 3) {
         float* p = primitive.positions.data() + i;
         const Vec3 v{p[0], p[1], p[2]};
-        for (std::size_t r = 0; r < 3; ++r) p[r] = static_cast<float>(m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2] + m[12 + r]);
+        for (std::size_t r = 0; r < 3; ++r)
+            p[r] = static_cast<float>(m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2] + m[12 + r]);
     }
     const std::array<double, 9> n = normal_matrix(m);
     const double sign = determinant(m) < 0.0 ? -1.0 : 1.0;
@@ -115,14 +126,17 @@ void transform_vertices(const Matrix& m, Primitive& primitive) {
     }
     // A mirror turns the faces over; their order keeps them counter-clockwise.
     if (sign < 0.0)
-        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
+        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
+            std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
 }
 
 void compute_normals(Primitive& primitive) {
     const std::vector<float>& p = primitive.positions;
     std::vector<double> sums(p.size(), 0.0);
     for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-        const std::size_t a = 3 * std::size_t{primitive.indices[i]}, b = 3 * std::size_t{primitive.indices[i + 1]}, c = 3 * std::size_t{primitive.indices[i + 2]};
+        const std::size_t a = 3 * std::size_t{primitive.indices[i]},
+                          b = 3 * std::size_t{primitive.indices[i + 1]},
+                          c = 3 * std::size_t{primitive.indices[i + 2]};
         Vec3 e{}, f{};
         for (std::size_t k = 0; k < 3; ++k) {
             e[k] = static_cast<double>(p[b + k]) - p[a + k];
@@ -133,7 +147,8 @@ void compute_normals(Primitive& primitive) {
             for (std::size_t k = 0; k < 3; ++k) sums[v + k] += n[k];
     }
     primitive.normals.resize(p.size());
-    for (std::size_t i = 0; i + 2 < p.size(); i += 3) set_unit({sums[i], sums[i + 1], sums[i + 2]}, primitive.normals.data() + i);
+    for (std::size_t i = 0; i + 2 < p.size(); i += 3)
+        set_unit({sums[i], sums[i + 1], sums[i + 2]}, primitive.normals.data() + i);
 }
 
 class AssetReader {
@@ -170,8 +185,9 @@ class AssetReader {
         vertices_ += count;
         indices_ += primitive.indices.size();
         if (vertices_ > kMaxModelVertices || indices_ > kMaxModelIndices)
-            return Error{ErrorCode::limit_exceeded, "glTF: the scene has more than " + std::to_string(kMaxModelVertices) +
-                                                        " vertices or " + std::to_string(kMaxModelIndices) + " indices"};
+            return Error{ErrorCode::limit_exceeded, "glTF: the scene has more than " +
+                                                        std::to_string(kMaxModelVertices) + " vertices or " +
+                                                        std::to_string(kMaxModelIndices) + " indices"};
         if (primitive.indices.empty()) return Done{};
         primitive.material = material_of(item);
         primitive.positions = read_numbers(model_, *attribute_of(item, "POSITION"));

@@ -1,8 +1,8 @@
 // Walks the container of an image file before any decoder sees it, for the sources of this library only.
 //
-// A Container promises: the header is sane, every checksum, offset and length that the decoder will follow lies within
-// the bytes, and `bytes` holds nothing but what the heights need; metadata (profiles, Exif, text, thumbnails, further
-// pages) is gone, so that its parsers never run.
+// A Container promises: the header is sane, every checksum, offset and length that the decoder will follow
+// lies within the bytes, and `bytes` holds nothing but what the heights need; metadata (profiles, Exif, text,
+// thumbnails, further pages) is gone, so that its parsers never run.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace burin {
 
 struct Container {
-    std::string format;   // "PNG", "JPEG", "TIFF", "OpenEXR"
+    std::string format;       // "PNG", "JPEG", "TIFF", "OpenEXR"
     const char* plugin = "";  // OpenImageIO's name of the reader
     const char* suffix = "";  // what that reader expects a name to end in
     std::uint64_t width = 0, height = 0;
@@ -24,6 +24,9 @@ struct Container {
     bool is_signed = false;
     bool lossy = false;
     bool progressive = false;  // the decoder must hold the whole picture
+    // Rows must be asked for in multiples of this: channels stored apart from each other cannot be left
+    // half-way.
+    std::uint64_t band_rows = 1;
     std::vector<std::uint8_t> bytes{};
 };
 
@@ -59,14 +62,15 @@ class ByteReader {
     bool overrun_ = false;
 };
 
-// Takes the bytes of the whole file. `max_texels` bounds width * height. Fails with unsupported, invalid_input or
-// limit_exceeded; the messages do not name the file.
+// Takes the bytes of the whole file. `max_texels` bounds width * height. Fails with unsupported,
+// invalid_input or limit_exceeded; the messages do not name the file.
 Result<Container> inspect_image(std::vector<std::uint8_t> file, std::uint64_t max_texels);
 
 // Whether a picture of that size is taken at all.
 Status check_size(std::uint64_t width, std::uint64_t height, std::uint64_t max_texels);
 
-// One per format; `inspect_image` chooses by the first bytes. PNG asks for the limit itself, before it inflates.
+// One per format; `inspect_image` chooses by the first bytes. PNG asks for the limit itself, before it
+// inflates.
 Result<Container> inspect_png(const std::vector<std::uint8_t>& file, std::uint64_t max_texels);
 Result<Container> inspect_jpeg(const std::vector<std::uint8_t>& file);
 Result<Container> inspect_tiff(std::vector<std::uint8_t> file);

@@ -1,5 +1,5 @@
-// JPEG: marker segments. Kept: everything but APPn and comments, save JFIF's APP0 and Adobe's APP14, which say how the
-// colors are coded.
+// JPEG: marker segments. Kept: everything but APPn and comments, save JFIF's APP0 and Adobe's APP14, which
+// say how the colors are coded.
 #include <algorithm>
 
 #include "container.hpp"
@@ -18,7 +18,8 @@ bool is_frame(int marker) {  // SOF0..15 without DHT, JPG, DAC
 
 class JpegWalk {
   public:
-    explicit JpegWalk(const std::vector<std::uint8_t>& file) : file_(file), reader_(file.data(), file.size(), true) {
+    explicit JpegWalk(const std::vector<std::uint8_t>& file)
+        : file_(file), reader_(file.data(), file.size(), true) {
         result_.format = "JPEG";
         result_.plugin = "jpeg";
         result_.suffix = ".jpg";
@@ -31,7 +32,8 @@ class JpegWalk {
         while (true) {
             // Fill bytes may stand before a marker.
             while (reader_.has(at, 2) && reader_.u8(at) == 0xff && reader_.u8(at + 1) == 0xff) ++at;
-            if (!reader_.has(at, 2)) return damaged("JPEG: the file is cut off at byte " + std::to_string(file_.size()));
+            if (!reader_.has(at, 2))
+                return damaged("JPEG: the file is cut off at byte " + std::to_string(file_.size()));
             if (reader_.u8(at) != 0xff) return damaged("JPEG: there is no marker" + at_byte(at));
             const int marker = reader_.u8(at + 1);
             if (marker == 0xd9) return finish(at);
@@ -61,12 +63,14 @@ class JpegWalk {
             if (Status status = frame(marker, at + 4, size - 2); !status.ok()) return status;
         }
         if (marker == 0xda) {
-            if (result_.width == 0) return damaged("JPEG: a scan" + at_byte(at) + " comes before the frame header");
+            if (result_.width == 0)
+                return damaged("JPEG: a scan" + at_byte(at) + " comes before the frame header");
             ++scans_;
             if (scans_ * result_.width * result_.height > kMaxScanTexels && scans_ > 1)
                 return Error{ErrorCode::limit_exceeded,
-                             "JPEG: " + std::to_string(scans_) + " scans of " + std::to_string(result_.width) + "x" +
-                                 std::to_string(result_.height) + " texels, limit " + std::to_string(kMaxScanTexels) +
+                             "JPEG: " + std::to_string(scans_) + " scans of " +
+                                 std::to_string(result_.width) + "x" + std::to_string(result_.height) +
+                                 " texels, limit " + std::to_string(kMaxScanTexels) +
                                  " texel visits; save it as baseline JPEG"};
         }
         const bool application = marker >= 0xe0 && marker <= 0xef && marker != 0xe0 && marker != 0xee;
@@ -81,9 +85,11 @@ class JpegWalk {
                                 " (lossless or hierarchical) is not read; save it as baseline JPEG");
         if (result_.width != 0) return damaged("JPEG: there is a second frame header" + at_byte(at));
         const int components = reader_.u8(at + 5);
-        if (size != 6 + 3 * static_cast<std::uint64_t>(components)) return damaged("JPEG: the frame header has a wrong size");
+        if (size != 6 + 3 * static_cast<std::uint64_t>(components))
+            return damaged("JPEG: the frame header has a wrong size");
         if (reader_.u8(at) != 8)
-            return not_promised("JPEG: " + std::to_string(reader_.u8(at)) + " bits a channel are not read, only 8");
+            return not_promised("JPEG: " + std::to_string(reader_.u8(at)) +
+                                " bits a channel are not read, only 8");
         if (components != 1 && components != 3)
             return not_promised("JPEG: " + std::to_string(components) +
                                 " components (CMYK, for instance) are not read, only grey and color");

@@ -24,7 +24,8 @@ bool is_letter(std::uint8_t c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c
 
 Result<Chunk> read_chunk(const std::vector<std::uint8_t>& file, std::uint64_t at) {
     ByteReader reader(file.data(), file.size(), true);
-    if (!reader.has(at, 12)) return damaged("PNG: the file ends" + at_byte(file.size()) + ", before its last chunk");
+    if (!reader.has(at, 12))
+        return damaged("PNG: the file ends" + at_byte(file.size()) + ", before its last chunk");
     Chunk chunk;
     chunk.begin = at;
     chunk.data = at + 8;
@@ -34,17 +35,18 @@ Result<Chunk> read_chunk(const std::vector<std::uint8_t>& file, std::uint64_t at
         chunk.type.push_back(static_cast<char>(reader.u8(i)));
     }
     if (chunk.size > 0x7fffffffu || !reader.has(chunk.data, chunk.size + 4))
-        return damaged("PNG: the " + chunk.type + " chunk" + at_byte(at) + " has " + std::to_string(chunk.size) +
-                       " bytes, more than the file");
+        return damaged("PNG: the " + chunk.type + " chunk" + at_byte(at) + " has " +
+                       std::to_string(chunk.size) + " bytes, more than the file");
     return chunk;
 }
 
 Status check_crc(const std::vector<std::uint8_t>& file, const Chunk& chunk) {
     ByteReader reader(file.data(), file.size(), true);
-    const auto computed =
-        static_cast<std::uint32_t>(crc32_z(0, file.data() + chunk.begin + 4, static_cast<z_size_t>(chunk.size) + 4));
+    const auto computed = static_cast<std::uint32_t>(
+        crc32_z(0, file.data() + chunk.begin + 4, static_cast<z_size_t>(chunk.size) + 4));
     if (computed != reader.u32(chunk.data + chunk.size))
-        return damaged("PNG: the checksum of the " + chunk.type + " chunk" + at_byte(chunk.begin) + " is wrong");
+        return damaged("PNG: the checksum of the " + chunk.type + " chunk" + at_byte(chunk.begin) +
+                       " is wrong");
     return Done{};
 }
 
@@ -56,7 +58,8 @@ struct Header {
 
 Result<Header> read_header(const std::vector<std::uint8_t>& file, const Chunk& chunk) {
     if (chunk.type != "IHDR") return damaged("PNG: the first chunk is " + chunk.type + " instead of IHDR");
-    if (chunk.size != 13) return damaged("PNG: IHDR has " + std::to_string(chunk.size) + " bytes instead of 13");
+    if (chunk.size != 13)
+        return damaged("PNG: IHDR has " + std::to_string(chunk.size) + " bytes instead of 13");
     ByteReader reader(file.data(), file.size(), true);
     Header h;
     h.width = reader.u32(chunk.data);
@@ -64,8 +67,10 @@ Result<Header> read_header(const std::vector<std::uint8_t>& file, const Chunk& c
     h.bit_depth = reader.u8(chunk.data + 8);
     h.color_type = reader.u8(chunk.data + 9);
     h.interlace = reader.u8(chunk.data + 12);
-    const bool power = h.bit_depth == 1 || h.bit_depth == 2 || h.bit_depth == 4 || h.bit_depth == 8 || h.bit_depth == 16;
-    const bool type = h.color_type == 0 || h.color_type == 2 || h.color_type == 3 || h.color_type == 4 || h.color_type == 6;
+    const bool power =
+        h.bit_depth == 1 || h.bit_depth == 2 || h.bit_depth == 4 || h.bit_depth == 8 || h.bit_depth == 16;
+    const bool type =
+        h.color_type == 0 || h.color_type == 2 || h.color_type == 3 || h.color_type == 4 || h.color_type == 6;
     const bool pair = h.color_type == 0 || (h.color_type == 3 ? h.bit_depth <= 8 : h.bit_depth >= 8);
     if (!power || !type || !pair)
         return damaged("PNG: IHDR combines bit depth " + std::to_string(h.bit_depth) + " with color type " +
@@ -73,7 +78,8 @@ Result<Header> read_header(const std::vector<std::uint8_t>& file, const Chunk& c
     if (reader.u8(chunk.data + 10) != 0 || reader.u8(chunk.data + 11) != 0 || h.interlace > 1)
         return damaged("PNG: IHDR names an unknown compression, filter or interlace method");
     if (h.width == 0 || h.height == 0 || h.width > 0x7fffffffu || h.height > 0x7fffffffu)
-        return damaged("PNG: IHDR gives the size " + std::to_string(h.width) + "x" + std::to_string(h.height));
+        return damaged("PNG: IHDR gives the size " + std::to_string(h.width) + "x" +
+                       std::to_string(h.height));
     return h;
 }
 
@@ -93,8 +99,10 @@ Status check_order(const Chunk& chunk, const Header& header, const Walk& walk) {
     }
     if (chunk.type == "IDAT") {
         if (walk.data_bytes > 0 && walk.previous != "IDAT")
-            return damaged("PNG: the IDAT chunk" + at_byte(chunk.begin) + " does not follow the one before it");
-        if (header.color_type == 3 && !walk.palette) return damaged("PNG: a palette picture without a PLTE chunk");
+            return damaged("PNG: the IDAT chunk" + at_byte(chunk.begin) +
+                           " does not follow the one before it");
+        if (header.color_type == 3 && !walk.palette)
+            return damaged("PNG: a palette picture without a PLTE chunk");
         return Done{};
     }
     const bool critical = (chunk.type[0] & 0x20) == 0;
@@ -107,7 +115,8 @@ Status check_order(const Chunk& chunk, const Header& header, const Walk& walk) {
 Status check_data_size(const Header& header, std::uint64_t data_bytes) {
     constexpr std::uint64_t kDeflateRatio = 1032;
     const std::uint64_t row =
-        (std::uint64_t{header.width} * static_cast<unsigned>(header.samples() * header.bit_depth) + 7) / 8 + 1;
+        (std::uint64_t{header.width} * static_cast<unsigned>(header.samples() * header.bit_depth) + 7) / 8 +
+        1;
     const std::uint64_t rows_at_most = (data_bytes * kDeflateRatio + 1024) / row;
     if (rows_at_most < header.height)
         return damaged("PNG: " + std::to_string(data_bytes) + " bytes of data cannot hold " +
@@ -137,7 +146,8 @@ std::vector<Pass> passes_of(const Header& h) {
     return passes;
 }
 
-// Follows the inflated bytes: which of them is a row's filter byte, and whether they are as many as the size asks for.
+// Follows the inflated bytes: which of them is a row's filter byte, and whether they are as many as the size
+// asks for.
 class RowWalk {
   public:
     explicit RowWalk(const Header& header) : passes_(passes_of(header)) {}
@@ -146,7 +156,8 @@ class RowWalk {
         while (count > 0) {
             if (pass_ == passes_.size()) return damaged("PNG: there is more data than the picture has rows");
             if (in_row_ == 0 && *bytes > 4)
-                return damaged("PNG: row " + std::to_string(row_) + " has the unknown filter " + std::to_string(*bytes));
+                return damaged("PNG: row " + std::to_string(row_) + " has the unknown filter " +
+                               std::to_string(*bytes));
             const std::uint64_t step = std::min(count, passes_[pass_].row_bytes - in_row_);
             bytes += step;
             count -= step;
@@ -169,8 +180,8 @@ class RowWalk {
     std::uint64_t row_ = 0, in_row_ = 0;
 };
 
-// Inflates the data once to see that it is whole: the decoder would write its complaints to the terminal, and some
-// would be warnings over rows that it made up.
+// Inflates the data once to see that it is whole: the decoder would write its complaints to the terminal, and
+// some would be warnings over rows that it made up.
 class DataCheck {
   public:
     explicit DataCheck(const Header& header) : rows_(header) { started_ = inflateInit(&stream_) == Z_OK; }
@@ -191,7 +202,8 @@ class DataCheck {
             if (state != Z_OK && state != Z_STREAM_END && state != Z_BUF_ERROR)
                 return damaged(std::string("PNG: the data cannot be inflated: ") +
                                (stream_.msg != nullptr ? stream_.msg : "wrong stream"));
-            if (Status status = rows_.take(piece_.data(), piece_.size() - stream_.avail_out); !status.ok()) return status;
+            if (Status status = rows_.take(piece_.data(), piece_.size() - stream_.avail_out); !status.ok())
+                return status;
             ended_ = state == Z_STREAM_END;
             if (state == Z_BUF_ERROR) break;
         }
@@ -219,7 +231,8 @@ Status check_data(const std::vector<std::uint8_t>& file, const Header& header, s
         if (!chunk.ok()) return chunk.error();
         if (chunk->type == "IEND") return check.finish();
         if (chunk->type == "IDAT")
-            if (Status status = check.take(file.data() + chunk->data, chunk->size); !status.ok()) return status;
+            if (Status status = check.take(file.data() + chunk->data, chunk->size); !status.ok())
+                return status;
         at = chunk->end();
     }
 }
@@ -249,7 +262,8 @@ Result<Container> inspect_png(const std::vector<std::uint8_t>& file, std::uint64
         if (Status status = check_order(*chunk, *header, walk); !status.ok()) return status.error();
         if (chunk->type == "IDAT" || chunk->type == "PLTE" || chunk->type == "IEND") {
             if (Status status = check_crc(file, *chunk); !status.ok()) return status.error();
-            // A palette is a mere suggestion in true-color pictures, and an error in grey ones that decoders mind.
+            // A palette is a mere suggestion in true-color pictures, and an error in grey ones that decoders
+            // mind.
             if (chunk->type != "PLTE" || header->color_type == 3) keep(at, chunk->end());
         }
         walk.palette = walk.palette || chunk->type == "PLTE";
@@ -259,7 +273,8 @@ Result<Container> inspect_png(const std::vector<std::uint8_t>& file, std::uint64
     }
     if (walk.data_bytes == 0) return damaged("PNG: there is no IDAT chunk, so no picture");
     if (Status status = check_data_size(*header, walk.data_bytes); !status.ok()) return status.error();
-    if (Status status = check_size(header->width, header->height, max_texels); !status.ok()) return status.error();
+    if (Status status = check_size(header->width, header->height, max_texels); !status.ok())
+        return status.error();
     if (Status status = check_data(file, *header, first->end()); !status.ok()) return status.error();
     result.width = header->width;
     result.height = header->height;

@@ -1,4 +1,5 @@
-// TIFF and BigTIFF: the first image file directory, rewritten to the tags that heights need; no further pages.
+// TIFF and BigTIFF: the first image file directory, rewritten to the tags that heights need; no further
+// pages.
 #include <algorithm>
 #include <bit>
 #include <map>
@@ -31,10 +32,10 @@ enum Tag : std::uint16_t {
     kJpegTables = 347,
     kChromaSubsampling = 530,
 };
-constexpr std::uint16_t kKept[] = {kWidth,      kHeight,    kBits,         kCompression, kPhotometric, kFillOrder,
-                                   kStripOffsets, kSamples, kRowsPerStrip, kStripBytes,  kPlanar,      kPredictor,
-                                   kColorMap,   kTileWidth, kTileHeight,   kTileOffsets, kTileBytes,   kExtraSamples,
-                                   kSampleFormat, kJpegTables, kChromaSubsampling};
+constexpr std::uint16_t kKept[] = {
+    kWidth,      kHeight,       kBits,       kCompression,  kPhotometric,  kFillOrder,  kStripOffsets,
+    kSamples,    kRowsPerStrip, kStripBytes, kPlanar,       kPredictor,    kColorMap,   kTileWidth,
+    kTileHeight, kTileOffsets,  kTileBytes,  kExtraSamples, kSampleFormat, kJpegTables, kChromaSubsampling};
 
 struct Field {
     int type = 0;
@@ -44,11 +45,28 @@ struct Field {
 
 int type_bytes(int type) {
     switch (type) {
-        case 1: case 2: case 6: case 7: return 1;
-        case 3: case 8: return 2;
-        case 4: case 9: case 11: case 13: return 4;
-        case 5: case 10: case 12: case 16: case 17: case 18: return 8;
-        default: return 0;
+        case 1:
+        case 2:
+        case 6:
+        case 7:
+            return 1;
+        case 3:
+        case 8:
+            return 2;
+        case 4:
+        case 9:
+        case 11:
+        case 13:
+            return 4;
+        case 5:
+        case 10:
+        case 12:
+        case 16:
+        case 17:
+        case 18:
+            return 8;
+        default:
+            return 0;
     }
 }
 
@@ -99,7 +117,8 @@ class TiffWalk {
     // Reads the directory, then writes the kept entries back to its front and ends the chain of pages there.
     Status directory() {
         const std::uint64_t at = big_ ? reader_.u64(8) : reader_.u32(4);
-        if (big_ && (reader_.u16(4) != 8 || reader_.u16(6) != 0)) return damaged("TIFF: wrong BigTIFF header");
+        if (big_ && (reader_.u16(4) != 8 || reader_.u16(6) != 0))
+            return damaged("TIFF: wrong BigTIFF header");
         const int count_bytes = big_ ? 8 : 2;
         const std::uint64_t entry_bytes = big_ ? 20 : 12;
         if (at < 8 || !reader_.has(at, static_cast<std::uint64_t>(count_bytes)))
@@ -108,8 +127,8 @@ class TiffWalk {
         const std::uint64_t first = at + static_cast<std::uint64_t>(count_bytes);
         const std::uint64_t link_bytes = big_ ? 8 : 4;
         if (count == 0 || count > 4096 || !reader_.has(first, count * entry_bytes))
-            return damaged("TIFF: the directory at byte " + std::to_string(at) + " has " + std::to_string(count) +
-                           " entries, none or more than the file holds");
+            return damaged("TIFF: the directory at byte " + std::to_string(at) + " has " +
+                           std::to_string(count) + " entries, none or more than the file holds");
         std::uint64_t kept = 0;
         for (std::uint64_t i = 0; i < count; ++i) {
             const std::uint64_t entry = first + i * entry_bytes;
@@ -120,10 +139,12 @@ class TiffWalk {
                         file_.begin() + static_cast<std::ptrdiff_t>(first + kept * entry_bytes));
             // Values within the entry moved with it.
             Field& field = fields_[tag];
-            if (field.at >= entry && field.at < entry + entry_bytes) field.at -= entry - (first + kept * entry_bytes);
+            if (field.at >= entry && field.at < entry + entry_bytes)
+                field.at -= entry - (first + kept * entry_bytes);
             ++kept;
         }
-        // The room for the link that ends the chain is there as soon as one entry was dropped; otherwise it stood there.
+        // The room for the link that ends the chain is there as soon as one entry was dropped; otherwise it
+        // stood there.
         const std::uint64_t link = first + kept * entry_bytes;
         if (!reader_.has(link, link_bytes)) file_.resize(link + link_bytes);
         reader_ = ByteReader(file_.data(), file_.size(), file_[0] == 'M');
@@ -148,16 +169,20 @@ class TiffWalk {
         const std::uint64_t inside = big_ ? 8 : 4;
         const std::uint64_t value_at = entry + (big_ ? 12 : 8);
         if (bytes == 0 || field.count == 0 || field.count > reader_.size())
-            return damaged("TIFF: tag " + std::to_string(tag) + " has type " + std::to_string(field.type) + " and " +
-                           std::to_string(field.count) + " values");
+            return damaged("TIFF: tag " + std::to_string(tag) + " has type " + std::to_string(field.type) +
+                           " and " + std::to_string(field.count) + " values");
         const std::uint64_t total = bytes * field.count;
         field.at = total <= inside ? value_at : reader_.unsigned_at(value_at, static_cast<int>(inside));
         if (!reader_.has(field.at, total))
-            return damaged("TIFF: the values of tag " + std::to_string(tag) + " lie past the end of the file");
+            return damaged("TIFF: the values of tag " + std::to_string(tag) +
+                           " lie past the end of the file");
         const bool number = field.type == 1 || field.type == 3 || field.type == 4 || field.type == 16 ||
                             field.type == 6 || field.type == 7;
-        if (!number) return damaged("TIFF: tag " + std::to_string(tag) + " has the wrong type " + std::to_string(field.type));
-        if (!fields_.emplace(tag, field).second) return damaged("TIFF: tag " + std::to_string(tag) + " stands there twice");
+        if (!number)
+            return damaged("TIFF: tag " + std::to_string(tag) + " has the wrong type " +
+                           std::to_string(field.type));
+        if (!fields_.emplace(tag, field).second)
+            return damaged("TIFF: tag " + std::to_string(tag) + " stands there twice");
         return Done{};
     }
 
@@ -166,8 +191,10 @@ class TiffWalk {
             return damaged("TIFF: the directory names no width or no height");
         result_.width = value(kWidth);
         result_.height = value(kHeight);
-        if (result_.width == 0 || result_.height == 0 || result_.width > 0x7fffffff || result_.height > 0x7fffffff)
-            return damaged("TIFF: the size is " + std::to_string(result_.width) + "x" + std::to_string(result_.height));
+        if (result_.width == 0 || result_.height == 0 || result_.width > 0x7fffffff ||
+            result_.height > 0x7fffffff)
+            return damaged("TIFF: the size is " + std::to_string(result_.width) + "x" +
+                           std::to_string(result_.height));
         return Done{};
     }
 
@@ -176,20 +203,23 @@ class TiffWalk {
         if (samples < 1 || samples > 4)
             return not_promised("TIFF: " + std::to_string(samples) + " channels; 1 to 4 are read");
         if (fields_.count(kBits) != 0 && fields_[kBits].count != 1 && fields_[kBits].count < samples)
-            return damaged("TIFF: bits per sample are given for " + std::to_string(fields_[kBits].count) + " of " +
-                           std::to_string(samples) + " channels");
+            return damaged("TIFF: bits per sample are given for " + std::to_string(fields_[kBits].count) +
+                           " of " + std::to_string(samples) + " channels");
         const std::uint64_t bits = value_or(kBits, 1);
         const std::uint64_t kind = value_or(kSampleFormat, 1);
         for (const std::uint16_t tag : {kBits, kSampleFormat}) {
-            for (std::uint64_t i = 1; fields_.count(tag) != 0 && i < std::min(samples, fields_[tag].count); ++i)
+            for (std::uint64_t i = 1; fields_.count(tag) != 0 && i < std::min(samples, fields_[tag].count);
+                 ++i)
                 if (value(tag, i) != value(tag))
-                    return not_promised("TIFF: channels of different kinds are not read; give them the same bits");
+                    return not_promised(
+                        "TIFF: channels of different kinds are not read; give them the same bits");
         }
         const bool integer = (kind == 1 || kind == 2 || kind == 4) &&
                              (bits == 1 || bits == 2 || bits == 4 || bits == 8 || bits == 16 || bits == 32);
         const bool floating = kind == 3 && (bits == 16 || bits == 32 || bits == 64);
         if (!integer && !floating)
-            return not_promised("TIFF: " + std::to_string(bits) + " bits of sample format " + std::to_string(kind) +
+            return not_promised("TIFF: " + std::to_string(bits) + " bits of sample format " +
+                                std::to_string(kind) +
                                 " are not read; 1 to 32 bit integers, 16, 32 and 64 bit floats are");
         result_.channels = static_cast<int>(samples);
         result_.bit_depth = static_cast<int>(bits);
@@ -211,14 +241,17 @@ class TiffWalk {
         if (photometric > 3 && !ycbcr)
             return not_promised("TIFF: color model " + std::to_string(photometric) +
                                 " is not read; save it as grey, RGB or palette");
-        if (code == 7 && result_.bit_depth != 8) return damaged("TIFF: JPEG data of " + std::to_string(result_.bit_depth) + " bits");
+        if (code == 7 && result_.bit_depth != 8)
+            return damaged("TIFF: JPEG data of " + std::to_string(result_.bit_depth) + " bits");
         if (photometric == 3 && (result_.is_float || result_.bit_depth > 8 || result_.channels != 1 ||
                                  fields_.count(kColorMap) == 0 || fields_[kColorMap].type != 3 ||
                                  fields_[kColorMap].count != 3ull << result_.bit_depth))
             return damaged("TIFF: the palette is missing or has a wrong size");
-        if (photometric == 2 && result_.channels < 3) return damaged("TIFF: RGB with fewer than three channels");
+        if (photometric == 2 && result_.channels < 3)
+            return damaged("TIFF: RGB with fewer than three channels");
         const std::uint64_t planar = value_or(kPlanar, 1);
-        if (planar != 1 && planar != 2) return damaged("TIFF: planar configuration " + std::to_string(planar));
+        if (planar != 1 && planar != 2)
+            return damaged("TIFF: planar configuration " + std::to_string(planar));
         return Done{};
     }
 
@@ -229,22 +262,27 @@ class TiffWalk {
         const std::uint64_t rows = tiled ? value_or(kTileHeight, 0) : value_or(kRowsPerStrip, result_.height);
         const std::uint64_t h = tiled ? rows : std::min(rows, result_.height);
         constexpr std::uint64_t kMaxTileSide = 1u << 16;
-        if (w == 0 || h == 0 || (tiled && (w > kMaxTileSide || h > kMaxTileSide || w % 16 != 0 || h % 16 != 0)))
-            return damaged("TIFF: strips or tiles of " + std::to_string(w) + "x" + std::to_string(h) + " texels");
+        if (w == 0 || h == 0 ||
+            (tiled && (w > kMaxTileSide || h > kMaxTileSide || w % 16 != 0 || h % 16 != 0)))
+            return damaged("TIFF: strips or tiles of " + std::to_string(w) + "x" + std::to_string(h) +
+                           " texels");
         const std::uint16_t offsets = tiled ? kTileOffsets : kStripOffsets;
         const std::uint16_t sizes = tiled ? kTileBytes : kStripBytes;
         if (fields_.count(offsets) == 0) return damaged("TIFF: no strip or tile offsets");
         const bool planar = value_or(kPlanar, 1) == 2 && result_.channels > 1;
         const std::uint64_t planes = planar ? static_cast<std::uint64_t>(result_.channels) : 1;
         const std::uint64_t across = (result_.width + w - 1) / w, down = (result_.height + h - 1) / h;
-        if (down > reader_.size() || across > reader_.size() / down || across * down * planes > fields_[offsets].count)
-            return damaged("TIFF: " + std::to_string(fields_[offsets].count) + " strips or tiles do not cover " +
-                           std::to_string(result_.width) + "x" + std::to_string(result_.height) + " texels");
+        if (down > reader_.size() || across > reader_.size() / down ||
+            across * down * planes > fields_[offsets].count)
+            return damaged("TIFF: " + std::to_string(fields_[offsets].count) +
+                           " strips or tiles do not cover " + std::to_string(result_.width) + "x" +
+                           std::to_string(result_.height) + " texels");
+        if (planar && !tiled) result_.band_rows = h;
         return block_sizes(offsets, sizes, across * down, planes, w, h, tiled);
     }
 
-    Status block_sizes(std::uint16_t offsets, std::uint16_t sizes, std::uint64_t per_plane, std::uint64_t planes,
-                       std::uint64_t w, std::uint64_t h, bool tiled) {
+    Status block_sizes(std::uint16_t offsets, std::uint16_t sizes, std::uint64_t per_plane,
+                       std::uint64_t planes, std::uint64_t w, std::uint64_t h, bool tiled) {
         const bool known = fields_.count(sizes) != 0;
         const std::uint64_t count = per_plane * planes;
         if (known && fields_[sizes].count < count) return damaged("TIFF: too few strip or tile sizes");
@@ -253,8 +291,8 @@ class TiffWalk {
         const std::uint64_t row = (w * samples * static_cast<std::uint64_t>(result_.bit_depth) + 7) / 8;
         constexpr std::uint64_t kMaxTileBytes = 1ull << 28;
         if (tiled && row > kMaxTileBytes / h)
-            return Error{ErrorCode::limit_exceeded, "TIFF: tiles of " + std::to_string(row * h) + " bytes, limit " +
-                                                        std::to_string(kMaxTileBytes)};
+            return Error{ErrorCode::limit_exceeded, "TIFF: tiles of " + std::to_string(row * h) +
+                                                        " bytes, limit " + std::to_string(kMaxTileBytes)};
         for (std::uint64_t i = 0; i < count; ++i) {
             const std::uint64_t at = value(offsets, i);
             const std::uint64_t y = tiled ? 0 : (i % per_plane) * h;
@@ -264,14 +302,14 @@ class TiffWalk {
                 return damaged("TIFF: strip or tile " + std::to_string(i) + " has " + std::to_string(bytes) +
                                " bytes at " + std::to_string(at) + ", none or past the end of the file");
             if (bytes * compression_.ratio + 64 * compression_.ratio - 64 < needed)
-                return damaged("TIFF: the " + std::to_string(bytes) + " bytes of strip or tile " + std::to_string(i) +
-                               " cannot hold its texels");
+                return damaged("TIFF: the " + std::to_string(bytes) + " bytes of strip or tile " +
+                               std::to_string(i) + " cannot hold its texels");
         }
         return Done{};
     }
 
-    // The decoder gives zeros for 64-bit floats: they are rewritten in place as 32-bit ones, which is what heights are
-    // kept in anyway.
+    // The decoder gives zeros for 64-bit floats: they are rewritten in place as 32-bit ones, which is what
+    // heights are kept in anyway.
     Status narrow_doubles() {
         if (!result_.is_float || result_.bit_depth != 64) return Done{};
         if (compression_.code != 1)
@@ -285,7 +323,8 @@ class TiffWalk {
             const std::uint64_t at = value(offsets, i), bytes = value(sizes, i);
             total += std::min(bytes, reader_.size());
             if (total > reader_.size()) return damaged("TIFF: strips or tiles overlap");
-            if (!reader_.has(at, bytes)) return damaged("TIFF: strip or tile " + std::to_string(i) + " lies past the end");
+            if (!reader_.has(at, bytes))
+                return damaged("TIFF: strip or tile " + std::to_string(i) + " lies past the end");
             for (std::uint64_t k = 0; k + 8 <= bytes; k += 8) {
                 const auto narrow = static_cast<float>(std::bit_cast<double>(reader_.u64(at + k)));
                 write_number(at + k / 2, std::bit_cast<std::uint32_t>(narrow), 4);

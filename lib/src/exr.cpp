@@ -15,7 +15,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 template <typename T>
 void append(Bytes& bytes, T value) {
-    for (std::size_t i = 0; i < sizeof(T); ++i) bytes.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i)));
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+        bytes.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i)));
 }
 
 void append_text(Bytes& bytes, std::string_view text) {
@@ -45,7 +46,8 @@ Bytes header(const Image& image) {
     const Bytes kind = words({2, 0, 1, 1});  // FLOAT, not perceptually linear, sampling 1 by 1
     channels.insert(channels.end(), kind.begin(), kind.end());
     channels.push_back(0);
-    const Bytes window = words({0, 0, static_cast<std::uint32_t>(image.width - 1), static_cast<std::uint32_t>(image.height - 1)});
+    const Bytes window = words(
+        {0, 0, static_cast<std::uint32_t>(image.width - 1), static_cast<std::uint32_t>(image.height - 1)});
     const Bytes one = words({std::bit_cast<std::uint32_t>(1.0f)});
     append_attribute(bytes, "channels", "chlist", channels);
     append_attribute(bytes, "compression", "compression", {3});
@@ -59,8 +61,8 @@ Bytes header(const Image& image) {
     return bytes;
 }
 
-// Rows [y, end) as the format compresses them: bytes of even places before those of odd places, then differences to the
-// byte before, then deflate; the rows as they are when that is no gain.
+// Rows [y, end) as the format compresses them: bytes of even places before those of odd places, then
+// differences to the byte before, then deflate; the rows as they are when that is no gain.
 Result<Bytes> block(const Image& image, int y, int end) {
     Bytes raw;
     for (int row = y; row < end; ++row)
@@ -68,7 +70,8 @@ Result<Bytes> block(const Image& image, int y, int end) {
     Bytes parted(raw.size());
     const std::size_t half = (raw.size() + 1) / 2;
     for (std::size_t i = 0; i < raw.size(); ++i) parted[i % 2 == 0 ? i / 2 : half + i / 2] = raw[i];
-    for (std::size_t i = parted.size() - 1; i > 0; --i) parted[i] = static_cast<std::uint8_t>(parted[i] - parted[i - 1] + 128);
+    for (std::size_t i = parted.size() - 1; i > 0; --i)
+        parted[i] = static_cast<std::uint8_t>(parted[i] - parted[i - 1] + 128);
     uLongf size = compressBound(static_cast<uLong>(parted.size()));
     Bytes packed(size);
     if (compress(packed.data(), &size, parted.data(), static_cast<uLong>(parted.size())) != Z_OK)
@@ -90,7 +93,8 @@ Result<Bytes> encode_exr(const Image& image) {
         Result<Bytes> data = block(image, y, std::min(image.height, y + kRowsPerBlock));
         if (!data.ok()) return data;
         for (std::size_t k = 0; k < 8; ++k)
-            bytes[table + 8 * static_cast<std::size_t>(i) + k] = static_cast<std::uint8_t>(bytes.size() >> (8 * k));
+            bytes[table + 8 * static_cast<std::size_t>(i) + k] =
+                static_cast<std::uint8_t>(bytes.size() >> (8 * k));
         append(bytes, static_cast<std::uint32_t>(y));
         append(bytes, static_cast<std::uint32_t>(data->size()));
         bytes.insert(bytes.end(), data->begin(), data->end());

@@ -1,5 +1,5 @@
-// OpenEXR writing for the sources of this library only: one channel of 32-bit floats, no dates, no program names, so
-// that equal heights give equal bytes.
+// OpenEXR writing for the sources of this library only: one channel of 32-bit floats, no dates, no program
+// names, so that equal heights give equal bytes.
 #pragma once
 
 #include <cstdint>

@@ -66,12 +66,14 @@ Error file_error(const std::string& what, const std::string& path) {
 Status write_atomically(const std::string& path, const std::function<Status(const std::string&)>& write) {
     struct stat state {};
     if (::stat(path.c_str(), &state) == 0 && !S_ISREG(state.st_mode)) {
-        if (S_ISDIR(state.st_mode)) return Error{ErrorCode::io_failed, "cannot write '" + path + "': it is a folder"};
+        if (S_ISDIR(state.st_mode))
+            return Error{ErrorCode::io_failed, "cannot write '" + path + "': it is a folder"};
         return write(path);
     }
     const std::string temporary = temporary_name(path);
     Status status = write(temporary);
-    if (status.ok() && std::rename(temporary.c_str(), path.c_str()) != 0) status = file_error("cannot write", path);
+    if (status.ok() && std::rename(temporary.c_str(), path.c_str()) != 0)
+        status = file_error("cannot write", path);
     if (!status.ok()) {
         ::unlink(temporary.c_str());
         // The user knows the target's name, not the temporary one's.

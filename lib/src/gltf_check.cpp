@@ -19,8 +19,9 @@ class Checker {
     Status run() {
         // bounds_[accessor] fills while primitives are checked; accessors may be shared by many.
         bounds_.resize(list("accessors").size());
-        for (bool (Checker::*step)() : {&Checker::views, &Checker::images, &Checker::accessors, &Checker::materials,
-                                        &Checker::meshes, &Checker::skins, &Checker::nodes, &Checker::scenes}) {
+        for (bool (Checker::*step)() :
+             {&Checker::views, &Checker::images, &Checker::accessors, &Checker::materials, &Checker::meshes,
+              &Checker::skins, &Checker::nodes, &Checker::scenes}) {
             if (!(this->*step)()) return error_;
         }
         return Done{};
@@ -35,8 +36,8 @@ class Checker {
     }
 
     // An unsigned integer below kMaxNumber; absent: `fallback`, or an error when there is none.
-    bool number(const Json& object, const char* key, const std::string& where, std::optional<std::uint64_t> fallback,
-                std::uint64_t& out) {
+    bool number(const Json& object, const char* key, const std::string& where,
+                std::optional<std::uint64_t> fallback, std::uint64_t& out) {
         const Json* value = find_member(object, key);
         if (value == nullptr && fallback.has_value()) {
             out = *fallback;
@@ -76,20 +77,25 @@ class Checker {
             const Json& view = list("bufferViews")[i];
             const std::string where = place(document_, "bufferViews", i);
             std::uint64_t buffer = 0, offset = 0, length = 0, stride = 0;
-            if (!number(view, "buffer", where, std::nullopt, buffer) || !reference(view, "buffer", "buffers", where) ||
-                !number(view, "byteOffset", where, 0, offset) || !number(view, "byteLength", where, std::nullopt, length) ||
+            if (!number(view, "buffer", where, std::nullopt, buffer) ||
+                !reference(view, "buffer", "buffers", where) ||
+                !number(view, "byteOffset", where, 0, offset) ||
+                !number(view, "byteLength", where, std::nullopt, length) ||
                 !number(view, "byteStride", where, 0, stride))
                 return false;
             const std::uint64_t size = model_.buffers[buffer].size();
             if (length == 0 || offset > size || length > size - offset)
-                return fail(where + ": bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) +
-                            " of buffer " + std::to_string(buffer) + ", which has " + std::to_string(size));
+                return fail(where + ": bytes " + std::to_string(offset) + " to " +
+                            std::to_string(offset + length) + " of buffer " + std::to_string(buffer) +
+                            ", which has " + std::to_string(size));
             if (view.contains("byteStride") && (stride < 4 || stride > 252 || stride % 4 != 0))
-                return fail(where + ": byteStride is " + std::to_string(stride) + ", it must be 4 to 252 in steps of 4");
+                return fail(where + ": byteStride is " + std::to_string(stride) +
+                            ", it must be 4 to 252 in steps of 4");
             for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
                 if (const Json* e = find_member(view, "extensions"); e != nullptr && e->contains(name)) {
-                    error_ = Error{ErrorCode::unsupported, "glTF: " + where + " is coded with " + name +
-                                                               ", which is not supported; save the model without it"};
+                    error_ = Error{ErrorCode::unsupported,
+                                   "glTF: " + where + " is coded with " + name +
+                                       ", which is not supported; save the model without it"};
                     return false;
                 }
         }
@@ -118,19 +124,24 @@ class Checker {
                    std::uint64_t count, bool may_stride) {
         std::uint64_t index = 0, offset = 0;
         if (!number(user, "bufferView", where, std::nullopt, index) ||
-            !reference(user, "bufferView", "bufferViews", where) || !number(user, "byteOffset", where, 0, offset))
+            !reference(user, "bufferView", "bufferViews", where) ||
+            !number(user, "byteOffset", where, 0, offset))
             return false;
         const Json& view = list("bufferViews")[index];
-        const std::uint64_t stride = unsigned_or(view, "byteStride", size), length = unsigned_or(view, "byteLength", 0);
-        if (view.contains("byteStride") && !may_stride) return fail(where + ": its bufferView may have no byteStride");
+        const std::uint64_t stride = unsigned_or(view, "byteStride", size),
+                            length = unsigned_or(view, "byteLength", 0);
+        if (view.contains("byteStride") && !may_stride)
+            return fail(where + ": its bufferView may have no byteStride");
         if (stride < size)
-            return fail(where + ": elements of " + std::to_string(size) + " bytes, byteStride " + std::to_string(stride));
+            return fail(where + ": elements of " + std::to_string(size) + " bytes, byteStride " +
+                        std::to_string(stride));
         if ((offset + unsigned_or(view, "byteOffset", 0)) % component != 0 || stride % component != 0)
             return fail(where + ": its elements do not start on multiples of their component's " +
                         std::to_string(component) + " bytes");
         if (offset > length || size > length - offset || (count - 1) > (length - offset - size) / stride)
             return fail(where + ": " + std::to_string(count) + " elements of " + std::to_string(size) +
-                        " bytes do not fit into bufferView " + std::to_string(index) + " of " + std::to_string(length));
+                        " bytes do not fit into bufferView " + std::to_string(index) + " of " +
+                        std::to_string(length));
         return true;
     }
 
@@ -142,21 +153,25 @@ class Checker {
 
     bool accessor(const Json& item, const std::string& where) {
         std::uint64_t type = 0, count = 0, offset = 0;
-        if (!number(item, "componentType", where, std::nullopt, type) || !number(item, "count", where, std::nullopt, count) ||
+        if (!number(item, "componentType", where, std::nullopt, type) ||
+            !number(item, "count", where, std::nullopt, count) ||
             !number(item, "byteOffset", where, 0, offset))
             return false;
         const AccessorKind kind = accessor_kind(item);
         if (kind.component_bytes == 0) return fail(where + ": unknown componentType " + std::to_string(type));
         if (kind.components == 0) return fail(where + ": unknown type '" + text_or(item, "type", "") + "'");
         if (count == 0 || count > kMaxModelIndices)
-            return fail(where + ": count is " + std::to_string(count) + ", it must be 1 to " + std::to_string(kMaxModelIndices));
+            return fail(where + ": count is " + std::to_string(count) + ", it must be 1 to " +
+                        std::to_string(kMaxModelIndices));
         // Zeros without a view cost no byte of the file, so that only a limit keeps them small.
         constexpr std::uint64_t kMaxImplicit = 1u << 22;
         if (!item.contains("bufferView") && count > kMaxImplicit)
             return fail(where + ": " + std::to_string(count) + " elements without a bufferView, limit " +
                         std::to_string(kMaxImplicit));
         const auto component = static_cast<std::uint64_t>(kind.component_bytes);
-        if (item.contains("bufferView") && !fits_view(item, where, kind.element_bytes, component, count, true)) return false;
+        if (item.contains("bufferView") &&
+            !fits_view(item, where, kind.element_bytes, component, count, true))
+            return false;
         return !item.contains("sparse") || sparse(item, where, kind, count);
     }
 
@@ -168,11 +183,13 @@ class Checker {
         std::uint64_t number_of = 0, type = 0, unused = 0;
         if (!number(part, "count", where + ".sparse", std::nullopt, number_of) ||
             !number(*indices, "componentType", where + ".sparse", std::nullopt, type) ||
-            !number(*indices, "byteOffset", where, 0, unused) || !number(*values, "byteOffset", where, 0, unused))
+            !number(*indices, "byteOffset", where, 0, unused) ||
+            !number(*values, "byteOffset", where, 0, unused))
             return false;
         const std::uint64_t size = type == 5121 ? 1 : type == 5123 ? 2 : type == 5125 ? 4 : 0;
         if (number_of == 0 || number_of > count)
-            return fail(where + ": sparse.count is " + std::to_string(number_of) + ", it must be 1 to " + std::to_string(count));
+            return fail(where + ": sparse.count is " + std::to_string(number_of) + ", it must be 1 to " +
+                        std::to_string(count));
         if (size == 0) return fail(where + ": sparse indices have componentType " + std::to_string(type));
         if (!fits_view(*indices, where + ".sparse.indices", size, size, number_of, false) ||
             !fits_view(*values, where + ".sparse.values", kind.element_bytes,
@@ -181,15 +198,17 @@ class Checker {
         return sparse_indices(*indices, where, size, number_of, count);
     }
 
-    bool sparse_indices(const Json& indices, const std::string& where, std::uint64_t size, std::uint64_t number_of,
-                        std::uint64_t count) {
+    bool sparse_indices(const Json& indices, const std::string& where, std::uint64_t size,
+                        std::uint64_t number_of, std::uint64_t count) {
         const Json& view = list("bufferViews")[unsigned_or(indices, "bufferView", 0)];
         const auto& bytes = model_.buffers[unsigned_or(view, "buffer", 0)];
-        const std::uint64_t begin = unsigned_or(view, "byteOffset", 0) + unsigned_or(indices, "byteOffset", 0);
+        const std::uint64_t begin =
+            unsigned_or(view, "byteOffset", 0) + unsigned_or(indices, "byteOffset", 0);
         std::uint64_t previous = 0;
         for (std::uint64_t i = 0; i < number_of; ++i) {
             std::uint64_t index = 0;
-            for (std::uint64_t b = 0; b < size; ++b) index |= static_cast<std::uint64_t>(bytes[begin + i * size + b]) << (8 * b);
+            for (std::uint64_t b = 0; b < size; ++b)
+                index |= static_cast<std::uint64_t>(bytes[begin + i * size + b]) << (8 * b);
             if (index >= count || (i > 0 && index <= previous))
                 return fail(where + ": sparse index " + std::to_string(i) + " is " + std::to_string(index) +
                             ", it must grow and stay below " + std::to_string(count));
@@ -204,7 +223,9 @@ class Checker {
             const std::string where = place(document_, "materials", i);
             if (const Json* pbr = find_member(material, "pbrMetallicRoughness"); pbr != nullptr) {
                 if (!pbr->is_object()) return fail(where + ": pbrMetallicRoughness is no object");
-                if (!texture(*pbr, "baseColorTexture", where) || !texture(*pbr, "metallicRoughnessTexture", where)) return false;
+                if (!texture(*pbr, "baseColorTexture", where) ||
+                    !texture(*pbr, "metallicRoughnessTexture", where))
+                    return false;
             }
             for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
                 if (!texture(material, key, where)) return false;
@@ -215,7 +236,8 @@ class Checker {
     bool texture(const Json& owner, const char* key, const std::string& where) {
         const Json* info = find_member(owner, key);
         if (info == nullptr) return true;
-        if (!info->is_object() || !info->contains("index")) return fail(where + ": " + key + " is no object with an index");
+        if (!info->is_object() || !info->contains("index"))
+            return fail(where + ": " + key + " is no object with an index");
         return reference(*info, "index", "textures", where + "." + key);
     }
 
@@ -226,7 +248,8 @@ class Checker {
             if (primitives == nullptr || !primitives->is_array() || primitives->empty())
                 return fail(where + ": there are no primitives");
             for (std::size_t k = 0; k < primitives->size(); ++k)
-                if (!primitive((*primitives)[k], where + ".primitives[" + std::to_string(k) + "]")) return false;
+                if (!primitive((*primitives)[k], where + ".primitives[" + std::to_string(k) + "]"))
+                    return false;
         }
         return true;
     }
@@ -254,12 +277,14 @@ class Checker {
         return index_accessor(item, where, *count) && targets(item, where, *count);
     }
 
-    bool attribute(const std::string& name, std::size_t index, const std::string& where, std::optional<std::uint64_t>& count) {
+    bool attribute(const std::string& name, std::size_t index, const std::string& where,
+                   std::optional<std::uint64_t>& count) {
         const Json& item = list("accessors")[index];
         const std::string here = where + "." + name;
         const std::uint64_t elements = unsigned_or(item, "count", 0);
         if (count.has_value() && *count != elements)
-            return fail(here + " has " + std::to_string(elements) + " elements, the attribute before it " + std::to_string(*count));
+            return fail(here + " has " + std::to_string(elements) + " elements, the attribute before it " +
+                        std::to_string(*count));
         count = elements;
         const std::string type = text_or(item, "type", "");
         const bool vector3 = name == "POSITION" || name == "NORMAL";
@@ -267,10 +292,12 @@ class Checker {
             (name.rfind("TEXCOORD_", 0) == 0 && type != "VEC2"))
             return fail(here + " is of type " + type);
         if (elements > kMaxModelVertices)
-            return fail(here + ": " + std::to_string(elements) + " vertices, limit " + std::to_string(kMaxModelVertices));
+            return fail(here + ": " + std::to_string(elements) + " vertices, limit " +
+                        std::to_string(kMaxModelVertices));
         if (!vector3 && name.rfind("TEXCOORD_", 0) != 0 && name != "TANGENT") return true;
         if (bounds(index).finite) return true;
-        return fail(here + ": element " + std::to_string(bounds(index).not_finite) + " is not a finite number");
+        return fail(here + ": element " + std::to_string(bounds(index).not_finite) +
+                    " is not a finite number");
     }
 
     bool index_accessor(const Json& item, const std::string& where, std::uint64_t count) {
@@ -305,8 +332,8 @@ class Checker {
         for (std::size_t i = 0; i < list("skins").size(); ++i) {
             const Json& skin = list("skins")[i];
             const std::string where = place(document_, "skins", i);
-            if (!reference(skin, "inverseBindMatrices", "accessors", where) || !reference(skin, "skeleton", "nodes", where) ||
-                !references(skin, "joints", "nodes", where))
+            if (!reference(skin, "inverseBindMatrices", "accessors", where) ||
+                !reference(skin, "skeleton", "nodes", where) || !references(skin, "joints", "nodes", where))
                 return false;
         }
         return true;
@@ -318,7 +345,8 @@ class Checker {
         bool good = values->is_array() && values->size() == count;
         for (std::size_t i = 0; good && i < count; ++i)
             good = (*values)[i].is_number() && std::abs((*values)[i].get<double>()) <= 1e30;
-        return good || fail(where + ": " + key + " is no array of " + std::to_string(count) + " numbers within 1e30");
+        return good ||
+               fail(where + ": " + key + " is no array of " + std::to_string(count) + " numbers within 1e30");
     }
 
     bool nodes() {
@@ -328,13 +356,15 @@ class Checker {
             const std::string where = place(document_, "nodes", i);
             const Json& node = all[i];
             if (!reference(node, "mesh", "meshes", where) || !reference(node, "skin", "skins", where) ||
-                !reference(node, "camera", "cameras", where) || !references(node, "children", "nodes", where) ||
-                !finite_numbers(node, "matrix", 16, where) || !finite_numbers(node, "translation", 3, where) ||
+                !reference(node, "camera", "cameras", where) ||
+                !references(node, "children", "nodes", where) || !finite_numbers(node, "matrix", 16, where) ||
+                !finite_numbers(node, "translation", 3, where) ||
                 !finite_numbers(node, "rotation", 4, where) || !finite_numbers(node, "scale", 3, where))
                 return false;
             for (const Json& child : array_of(node, "children"))
                 if (++parents_[child.get<std::size_t>()] > 1)
-                    return fail(place(document_, "nodes", child.get<std::size_t>()) + " is a child of two nodes");
+                    return fail(place(document_, "nodes", child.get<std::size_t>()) +
+                                " is a child of two nodes");
         }
         return no_loop();
     }
@@ -349,7 +379,8 @@ class Checker {
             const std::size_t node = open.back();
             open.pop_back();
             ++reached;
-            for (const Json& child : array_of(list("nodes")[node], "children")) open.push_back(child.get<std::size_t>());
+            for (const Json& child : array_of(list("nodes")[node], "children"))
+                open.push_back(child.get<std::size_t>());
         }
         return reached == parents_.size() || fail("nodes form a loop");
     }
@@ -366,7 +397,8 @@ class Checker {
                     return fail(where + ": " + place(document_, "nodes", roots.back()) + " is no root");
             }
             std::sort(roots.begin(), roots.end());
-            if (std::adjacent_find(roots.begin(), roots.end()) != roots.end()) return fail(where + ": a node stands there twice");
+            if (std::adjacent_find(roots.begin(), roots.end()) != roots.end())
+                return fail(where + ": a node stands there twice");
         }
         return reference(document_, "scene", "scenes", "the document");
     }
@@ -375,8 +407,8 @@ class Checker {
     struct Bounds {
         bool known = false;
         bool finite = true;
-        std::size_t not_finite = 0;    // element
-        std::uint64_t greatest = 0;    // of unsigned scalars
+        std::size_t not_finite = 0;  // element
+        std::uint64_t greatest = 0;  // of unsigned scalars
     };
 
     const Bounds& bounds(std::size_t index) {
@@ -393,7 +425,8 @@ class Checker {
                 b.not_finite = i / static_cast<std::size_t>(kind.components);
             }
         } else if (kind.components == 1) {
-            for (const std::uint32_t value : read_indices(model_, index)) b.greatest = std::max<std::uint64_t>(b.greatest, value);
+            for (const std::uint32_t value : read_indices(model_, index))
+                b.greatest = std::max<std::uint64_t>(b.greatest, value);
         }
         return b;
     }

@@ -15,7 +15,8 @@ constexpr std::uint64_t kMaxJsonBytes = 1ull << 28;
 constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 std::uint32_t u32_at(std::span<const std::uint8_t> bytes, std::size_t at) {
-    return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
+    return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 |
+           static_cast<std::uint32_t>(bytes[at + 3]) << 24;
 }
 
 struct Parts {
@@ -24,10 +25,12 @@ struct Parts {
 };
 
 Result<Parts> split_glb(std::span<const std::uint8_t> bytes) {
-    if (bytes.size() < 20) return model_error("glb: the file ends within its header, after " +
-                                              std::to_string(bytes.size()) + " bytes");
+    if (bytes.size() < 20)
+        return model_error("glb: the file ends within its header, after " + std::to_string(bytes.size()) +
+                           " bytes");
     if (u32_at(bytes, 4) != 2)
-        return Error{ErrorCode::unsupported, "glb: version " + std::to_string(u32_at(bytes, 4)) + " is not read, only 2"};
+        return Error{ErrorCode::unsupported,
+                     "glb: version " + std::to_string(u32_at(bytes, 4)) + " is not read, only 2"};
     const std::uint64_t length = u32_at(bytes, 8);
     if (length > bytes.size() || length < 20)
         return model_error("glb: the header says " + std::to_string(length) + " bytes, the file has " +
@@ -39,13 +42,16 @@ Result<Parts> split_glb(std::span<const std::uint8_t> bytes) {
         if (length - at < 8) return model_error(name + " ends within its header");
         const std::uint64_t size = u32_at(bytes, at);
         const std::uint32_t type = u32_at(bytes, at + 4);
-        if (size % 4 != 0) return model_error(name + " has " + std::to_string(size) + " bytes, no multiple of 4");
+        if (size % 4 != 0)
+            return model_error(name + " has " + std::to_string(size) + " bytes, no multiple of 4");
         if (size > length - at - 8)
             return model_error(name + " has " + std::to_string(size) + " bytes, more than the file");
         const auto data = bytes.subspan(at + 8, size);
-        if ((chunk == 0) != (type == kJsonChunk)) return model_error(name + " is not where it belongs: JSON comes first, once");
+        if ((chunk == 0) != (type == kJsonChunk))
+            return model_error(name + " is not where it belongs: JSON comes first, once");
         if (chunk == 0) parts.json = data;
-        if (type == kBinaryChunk && chunk != 1) return model_error(name + " is a binary chunk that is not the second");
+        if (type == kBinaryChunk && chunk != 1)
+            return model_error(name + " is a binary chunk that is not the second");
         if (type == kBinaryChunk) parts.binary = data;
         at += 8 + size;
     }
@@ -76,8 +82,8 @@ Status check_depth(std::span<const std::uint8_t> text) {
 
 Result<Json> parse_json(std::span<const std::uint8_t> text) {
     if (text.size() > kMaxJsonBytes)
-        return Error{ErrorCode::limit_exceeded, "glTF: " + std::to_string(text.size()) + " bytes of JSON, limit " +
-                                                    std::to_string(kMaxJsonBytes)};
+        return Error{ErrorCode::limit_exceeded, "glTF: " + std::to_string(text.size()) +
+                                                    " bytes of JSON, limit " + std::to_string(kMaxJsonBytes)};
     if (Status status = check_depth(text); !status.ok()) return status.error();
     std::size_t line = 1;
     Json document;
@@ -85,7 +91,8 @@ Result<Json> parse_json(std::span<const std::uint8_t> text) {
         document = Json::parse(text.begin(), text.end());
     } catch (const Json::parse_error& problem) {
         const std::size_t stop = std::min<std::size_t>(problem.byte, text.size());
-        line += static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(stop), '\n'));
+        line += static_cast<std::size_t>(
+            std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(stop), '\n'));
         return model_error("glTF: the JSON is damaged at byte " + std::to_string(problem.byte) + ", line " +
                            std::to_string(line));
     } catch (const Json::exception&) {
@@ -97,10 +104,12 @@ Result<Json> parse_json(std::span<const std::uint8_t> text) {
 
 Status check_version(const Json& document) {
     const Json* asset = find_member(document, "asset");
-    if (asset == nullptr || !asset->is_object()) return model_error("glTF: there is no asset object with a version");
+    if (asset == nullptr || !asset->is_object())
+        return model_error("glTF: there is no asset object with a version");
     const std::string version = text_or(*asset, "version", "");
     if (version.empty()) return model_error("glTF: asset.version is missing");
-    if (version.rfind("2.", 0) != 0 || (asset->contains("minVersion") && text_or(*asset, "minVersion", "") != "2.0"))
+    if (version.rfind("2.", 0) != 0 ||
+        (asset->contains("minVersion") && text_or(*asset, "minVersion", "") != "2.0"))
         return Error{ErrorCode::unsupported, "glTF: version " + version + " is not read, only 2.0"};
     return Done{};
 }
@@ -120,10 +129,12 @@ Status check_extensions(const Json& document) {
         if (list == nullptr) continue;
         if (!list->is_array()) return model_error(std::string("glTF: ") + key + " is no array");
         for (const Json& name : *list) {
-            if (!name.is_string()) return model_error(std::string("glTF: ") + key + " holds something that is no name");
+            if (!name.is_string())
+                return model_error(std::string("glTF: ") + key + " holds something that is no name");
             if (std::strcmp(key, "extensionsRequired") == 0 && !is_harmless(name.get<std::string>()))
-                return Error{ErrorCode::unsupported, "glTF: the model requires the extension " + name.get<std::string>() +
-                                                         ", which is not supported; save the model without it"};
+                return Error{ErrorCode::unsupported,
+                             "glTF: the model requires the extension " + name.get<std::string>() +
+                                 ", which is not supported; save the model without it"};
         }
     }
     return Done{};
@@ -131,14 +142,15 @@ Status check_extensions(const Json& document) {
 
 // Every list that burin walks holds objects only.
 Status check_lists(const Json& document) {
-    for (const char* key : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes",
-                            "nodes", "samplers", "scenes", "skins", "textures"}) {
+    for (const char* key : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images",
+                            "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
         const Json* list = find_member(document, key);
         if (list == nullptr) continue;
         if (!list->is_array()) return model_error(std::string("glTF: ") + key + " is no array");
         for (std::size_t i = 0; i < list->size(); ++i) {
             const Json& item = (*list)[i];
-            if (!item.is_object()) return model_error(std::string("glTF: ") + key + "[" + std::to_string(i) + "] is no object");
+            if (!item.is_object())
+                return model_error(std::string("glTF: ") + key + "[" + std::to_string(i) + "] is no object");
             if (const Json* e = find_member(item, "extensions"); e != nullptr && !e->is_object())
                 return model_error("glTF: " + place(document, key, i) + ": extensions is no object");
         }
@@ -152,7 +164,8 @@ Status check_lists(const Json& document) {
 }
 
 // Bytes of a buffer's or image's URI. `left` is what may still be loaded.
-Result<std::vector<std::uint8_t>> load_uri(const std::string& uri, const std::string& base_folder, std::uint64_t left) {
+Result<std::vector<std::uint8_t>> load_uri(const std::string& uri, const std::string& base_folder,
+                                           std::uint64_t left) {
     if (uri.rfind("data:", 0) == 0) return decode_data_uri(uri);
     Result<std::string> path = resolve_uri(uri, base_folder);
     if (!path.ok()) return path.error();
@@ -192,7 +205,8 @@ class Loader {
     Status count_bytes(std::uint64_t bytes) {
         total_ += bytes;
         if (total_ > kMaxModelBytes)
-            return Error{ErrorCode::limit_exceeded, "buffers and images pass " + std::to_string(kMaxModelBytes) + " bytes"};
+            return Error{ErrorCode::limit_exceeded,
+                         "buffers and images pass " + std::to_string(kMaxModelBytes) + " bytes"};
         return Done{};
     }
 
@@ -209,8 +223,9 @@ class Loader {
         } else if (index == 0 && parts_.binary.has_value()) {
             // The chunk is padded to four bytes; more is a sign of damage.
             if (parts_.binary->size() > byte_length + 3)
-                return model_error("byteLength is " + std::to_string(byte_length) + ", the binary chunk has " +
-                                   std::to_string(parts_.binary->size()) + " bytes");
+                return model_error("byteLength is " + std::to_string(byte_length) +
+                                   ", the binary chunk has " + std::to_string(parts_.binary->size()) +
+                                   " bytes");
             bytes = std::vector<std::uint8_t>(parts_.binary->begin(), parts_.binary->end());
         }
         if (!bytes.ok()) return bytes.error();
@@ -229,12 +244,15 @@ class Loader {
             if (!item.contains("bufferView")) return model_error("neither uri nor bufferView");
             return result;
         }
-        if (!uri->is_string() || item.contains("bufferView")) return model_error("the uri is no text, or stands beside a bufferView");
-        Result<std::vector<std::uint8_t>> bytes = load_uri(uri->get<std::string>(), base_folder_, kMaxModelBytes - total_);
+        if (!uri->is_string() || item.contains("bufferView"))
+            return model_error("the uri is no text, or stands beside a bufferView");
+        Result<std::vector<std::uint8_t>> bytes =
+            load_uri(uri->get<std::string>(), base_folder_, kMaxModelBytes - total_);
         if (!bytes.ok()) return bytes.error();
         result.bytes = std::move(*bytes);
         result.mime_type = mime_type_of(result.bytes);
-        if (result.mime_type.empty()) return model_error("its bytes are no picture of a kind that glTF knows");
+        if (result.mime_type.empty())
+            return model_error("its bytes are no picture of a kind that glTF knows");
         if (Status status = count_bytes(result.bytes.size()); !status.ok()) return status.error();
         return result;
     }
@@ -263,9 +281,12 @@ Result<std::string> percent_decoded(const std::string& uri) {
         }
         const auto digit = [&](std::size_t at) {
             const char c = at < uri.size() ? uri[at] : 'x';
-            return c >= '0' && c <= '9' ? c - '0' : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10 : -1;
+            return c >= '0' && c <= '9'                 ? c - '0'
+                   : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10
+                                                        : -1;
         };
-        if (digit(i + 1) < 0 || digit(i + 2) < 0) return model_error("the uri '" + uri.substr(0, 80) + "' has a wrong % escape");
+        if (digit(i + 1) < 0 || digit(i + 2) < 0)
+            return model_error("the uri '" + uri.substr(0, 80) + "' has a wrong % escape");
         text.push_back(static_cast<char>(digit(i + 1) * 16 + digit(i + 2)));
         i += 2;
     }
@@ -326,7 +347,8 @@ Result<std::vector<std::uint8_t>> decode_data_uri(std::string_view uri) {
     const std::size_t comma = uri.find(',');
     const std::string_view head = uri.substr(0, std::min(comma, uri.size()));
     constexpr std::string_view kMark = ";base64";
-    if (comma == std::string_view::npos || head.size() < kMark.size() || head.substr(head.size() - kMark.size()) != kMark)
+    if (comma == std::string_view::npos || head.size() < kMark.size() ||
+        head.substr(head.size() - kMark.size()) != kMark)
         return model_error("the data uri is not coded in base64");
     std::string_view text = uri.substr(comma + 1);
     while (!text.empty() && text.back() == '=' && uri.size() - text.size() + 3 > comma) {
@@ -341,7 +363,9 @@ Result<std::vector<std::uint8_t>> decode_data_uri(std::string_view uri) {
     int bits = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const int value = base64_value(text[i]);
-        if (value < 0) return model_error("the data uri holds a character that base64 does not know, at " + std::to_string(i));
+        if (value < 0)
+            return model_error("the data uri holds a character that base64 does not know, at " +
+                               std::to_string(i));
         window = window << 6 | static_cast<std::uint32_t>(value);
         bits += 6;
         if (bits < 8) continue;
@@ -360,11 +384,14 @@ Result<std::string> resolve_uri(const std::string& uri, const std::string& base_
     if (text.empty() || scheme || text.front() == '/' || text.find('\\') != std::string::npos ||
         text.find('\0') != std::string::npos)
         return model_error("the uri " + shown + " is not relative to the model's folder");
-    if (base_folder.empty()) return model_error("the uri " + shown + " names another file, which is not allowed here");
+    if (base_folder.empty())
+        return model_error("the uri " + shown + " names another file, which is not allowed here");
     namespace fs = std::filesystem;
     std::error_code problem;
     const fs::path base = fs::canonical(base_folder, problem);
-    if (problem) return Error{ErrorCode::io_failed, "cannot open the folder '" + base_folder + "': " + problem.message()};
+    if (problem)
+        return Error{ErrorCode::io_failed,
+                     "cannot open the folder '" + base_folder + "': " + problem.message()};
     for (const fs::path& part : fs::path(text))
         if (part == "..") return model_error("the uri " + shown + " leaves the model's folder");
     // Links are followed here, so that one inside the folder cannot lead out of it.

@@ -33,7 +33,8 @@ struct ModelData {
     std::vector<EncodedImage> images;                // one per image of the document
 };
 
-// ---- JSON access: never throws, never asserts on a wrong type -------------------------------------------------
+// ---- JSON access: never throws, never asserts on a wrong type
+// -------------------------------------------------
 
 // Member of an object, or null pointer (also when `object` is none).
 const Json* find_member(const Json& object, const char* key);
@@ -46,7 +47,8 @@ std::string text_or(const Json& object, const char* key, const std::string& fall
 // "meshes[3]", with the name when there is one: "meshes[3] 'helmet'".
 std::string place(const Json& document, const char* array, std::size_t index);
 
-// ---- steps ----------------------------------------------------------------------------------------------------
+// ---- steps
+// ----------------------------------------------------------------------------------------------------
 
 // `base_folder` empty: relative URIs are refused.
 Result<ModelData> load_document(std::span<const std::uint8_t> bytes, const std::string& base_folder);

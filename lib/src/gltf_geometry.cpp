@@ -12,7 +12,8 @@ constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 std::uint64_t component_at(const std::vector<std::uint8_t>& bytes, std::uint64_t at, int size) {
     std::uint64_t value = 0;
-    for (int i = 0; i < size; ++i) value |= static_cast<std::uint64_t>(bytes[at + static_cast<std::uint64_t>(i)]) << (8 * i);
+    for (int i = 0; i < size; ++i)
+        value |= static_cast<std::uint64_t>(bytes[at + static_cast<std::uint64_t>(i)]) << (8 * i);
     return value;
 }
 
@@ -22,14 +23,18 @@ float number_at(const std::vector<std::uint8_t>& bytes, std::uint64_t at, int ty
             const auto v = static_cast<std::int8_t>(component_at(bytes, at, 1));
             return normalized ? std::max(static_cast<float>(v) / 127.0f, -1.0f) : static_cast<float>(v);
         }
-        case 5121: return static_cast<float>(component_at(bytes, at, 1)) / (normalized ? 255.0f : 1.0f);
+        case 5121:
+            return static_cast<float>(component_at(bytes, at, 1)) / (normalized ? 255.0f : 1.0f);
         case 5122: {
             const auto v = static_cast<std::int16_t>(component_at(bytes, at, 2));
             return normalized ? std::max(static_cast<float>(v) / 32767.0f, -1.0f) : static_cast<float>(v);
         }
-        case 5123: return static_cast<float>(component_at(bytes, at, 2)) / (normalized ? 65535.0f : 1.0f);
-        case 5125: return static_cast<float>(component_at(bytes, at, 4));
-        default: return std::bit_cast<float>(static_cast<std::uint32_t>(component_at(bytes, at, 4)));
+        case 5123:
+            return static_cast<float>(component_at(bytes, at, 2)) / (normalized ? 65535.0f : 1.0f);
+        case 5125:
+            return static_cast<float>(component_at(bytes, at, 4));
+        default:
+            return std::bit_cast<float>(static_cast<std::uint32_t>(component_at(bytes, at, 4)));
     }
 }
 
@@ -43,7 +48,8 @@ struct View {
 View view_of(const ModelData& model, const Json& user) {
     const Json& view = array_of(model.document, "bufferViews")[unsigned_or(user, "bufferView", 0)];
     return {&model.buffers[unsigned_or(view, "buffer", 0)],
-            unsigned_or(view, "byteOffset", 0) + unsigned_or(user, "byteOffset", 0), unsigned_or(view, "byteStride", 0)};
+            unsigned_or(view, "byteOffset", 0) + unsigned_or(user, "byteOffset", 0),
+            unsigned_or(view, "byteStride", 0)};
 }
 
 // Calls take(element, component, place in bytes) for everything stored; element counts in the accessor.
@@ -54,7 +60,8 @@ void for_each_stored(const ModelData& model, const Json& accessor, Take take) {
     const auto visit = [&](const View& view, std::uint64_t from, std::uint64_t element) {
         const std::uint64_t stride = view.stride != 0 ? view.stride : kind.element_bytes;
         for (int c = 0; c < kind.components; ++c)
-            take(element, c, *view.bytes, view.begin + from * stride + static_cast<std::uint64_t>(c * kind.component_bytes));
+            take(element, c, *view.bytes,
+                 view.begin + from * stride + static_cast<std::uint64_t>(c * kind.component_bytes));
     };
     if (accessor.contains("bufferView")) {
         const View view = view_of(model, accessor);
@@ -64,7 +71,8 @@ void for_each_stored(const ModelData& model, const Json& accessor, Take take) {
     if (sparse == nullptr) return;
     const Json& indices = *find_member(*sparse, "indices");
     const View at = view_of(model, indices), values = view_of(model, *find_member(*sparse, "values"));
-    const int size = accessor_kind(Json{{"componentType", indices["componentType"]}, {"type", "SCALAR"}}).component_bytes;
+    const int size =
+        accessor_kind(Json{{"componentType", indices["componentType"]}, {"type", "SCALAR"}}).component_bytes;
     for (std::uint64_t i = 0; i < unsigned_or(*sparse, "count", 0); ++i)
         visit(values, i, component_at(*at.bytes, at.begin + i * static_cast<std::uint64_t>(size), size));
 }
@@ -89,17 +97,30 @@ Matrix local_transform(const Json& node) {
     const auto t = numbers_or<3>(node, "translation", {0, 0, 0});
     const auto [x, y, z, w] = numbers_or<4>(node, "rotation", {0, 0, 0, 1});
     const auto s = numbers_or<3>(node, "scale", {1, 1, 1});
-    return {(1 - 2 * (y * y + z * z)) * s[0], 2 * (x * y + z * w) * s[0], 2 * (x * z - y * w) * s[0], 0,
-            2 * (x * y - z * w) * s[1], (1 - 2 * (x * x + z * z)) * s[1], 2 * (y * z + x * w) * s[1], 0,
-            2 * (x * z + y * w) * s[2], 2 * (y * z - x * w) * s[2], (1 - 2 * (x * x + y * y)) * s[2], 0,
-            t[0], t[1], t[2], 1};
+    return {(1 - 2 * (y * y + z * z)) * s[0],
+            2 * (x * y + z * w) * s[0],
+            2 * (x * z - y * w) * s[0],
+            0,
+            2 * (x * y - z * w) * s[1],
+            (1 - 2 * (x * x + z * z)) * s[1],
+            2 * (y * z + x * w) * s[1],
+            0,
+            2 * (x * z + y * w) * s[2],
+            2 * (y * z - x * w) * s[2],
+            (1 - 2 * (x * x + y * y)) * s[2],
+            0,
+            t[0],
+            t[1],
+            t[2],
+            1};
 }
 
 std::vector<std::size_t> root_nodes(const Json& document) {
     std::vector<std::size_t> roots;
     const Json& scenes = array_of(document, "scenes");
     if (!scenes.empty()) {
-        for (const Json& node : array_of(scenes[unsigned_or(document, "scene", 0)], "nodes")) roots.push_back(node.get<std::size_t>());
+        for (const Json& node : array_of(scenes[unsigned_or(document, "scene", 0)], "nodes"))
+            roots.push_back(node.get<std::size_t>());
         return roots;
     }
     const Json& nodes = array_of(document, "nodes");
@@ -116,15 +137,26 @@ std::vector<std::size_t> root_nodes(const Json& document) {
 AccessorKind accessor_kind(const Json& accessor) {
     AccessorKind kind;
     switch (unsigned_or(accessor, "componentType", 0)) {
-        case 5120: case 5121: kind.component_bytes = 1; break;
-        case 5122: case 5123: kind.component_bytes = 2; break;
-        case 5125: case 5126: kind.component_bytes = 4; break;
-        default: break;
+        case 5120:
+        case 5121:
+            kind.component_bytes = 1;
+            break;
+        case 5122:
+        case 5123:
+            kind.component_bytes = 2;
+            break;
+        case 5125:
+        case 5126:
+            kind.component_bytes = 4;
+            break;
+        default:
+            break;
     }
     const std::string type = text_or(accessor, "type", "");
     int columns = 1;
     if (type == "SCALAR") kind.components = 1;
-    if (type.size() == 4 && (type.rfind("VEC", 0) == 0 || type.rfind("MAT", 0) == 0) && type[3] >= '2' && type[3] <= '4') {
+    if (type.size() == 4 && (type.rfind("VEC", 0) == 0 || type.rfind("MAT", 0) == 0) && type[3] >= '2' &&
+        type[3] <= '4') {
         const int n = type[3] - '0';
         columns = type[0] == 'M' ? n : 1;
         kind.components = n * columns;
@@ -144,9 +176,11 @@ std::vector<float> read_numbers(const ModelData& model, std::size_t index) {
     const bool normalized = flag != nullptr && flag->is_boolean() && flag->get<bool>();
     const auto components = static_cast<std::uint64_t>(kind.components);
     std::vector<float> values(unsigned_or(accessor, "count", 0) * components, 0.0f);
-    for_each_stored(model, accessor, [&](std::uint64_t i, int c, const std::vector<std::uint8_t>& bytes, std::uint64_t at) {
-        values[i * components + static_cast<std::uint64_t>(c)] = number_at(bytes, at, type, normalized);
-    });
+    for_each_stored(model, accessor,
+                    [&](std::uint64_t i, int c, const std::vector<std::uint8_t>& bytes, std::uint64_t at) {
+                        values[i * components + static_cast<std::uint64_t>(c)] =
+                            number_at(bytes, at, type, normalized);
+                    });
     return values;
 }
 
@@ -154,9 +188,10 @@ std::vector<std::uint32_t> read_indices(const ModelData& model, std::size_t inde
     const Json& accessor = array_of(model.document, "accessors")[index];
     const int size = accessor_kind(accessor).component_bytes;
     std::vector<std::uint32_t> values(unsigned_or(accessor, "count", 0), 0);
-    for_each_stored(model, accessor, [&](std::uint64_t i, int, const std::vector<std::uint8_t>& bytes, std::uint64_t at) {
-        values[i] = static_cast<std::uint32_t>(component_at(bytes, at, size));
-    });
+    for_each_stored(model, accessor,
+                    [&](std::uint64_t i, int, const std::vector<std::uint8_t>& bytes, std::uint64_t at) {
+                        values[i] = static_cast<std::uint32_t>(component_at(bytes, at, size));
+                    });
     return values;
 }
 
@@ -165,7 +200,8 @@ std::vector<PlacedMesh> placed_meshes(const ModelData& model) {
     const Json& nodes = array_of(document, "nodes");
     std::vector<PlacedMesh> placed;
     if (nodes.empty()) {
-        for (std::size_t i = 0; i < array_of(document, "meshes").size(); ++i) placed.push_back({i, kIdentity});
+        for (std::size_t i = 0; i < array_of(document, "meshes").size(); ++i)
+            placed.push_back({i, kIdentity});
         return placed;
     }
     struct Visit {
@@ -182,7 +218,8 @@ std::vector<PlacedMesh> placed_meshes(const ModelData& model) {
         const Matrix transform = product(visit.parent, local_transform(node));
         if (node.contains("mesh")) placed.push_back({unsigned_or(node, "mesh", 0), transform});
         const Json& children = array_of(node, "children");
-        for (auto at = children.rbegin(); at != children.rend(); ++at) open.push_back({at->get<std::size_t>(), transform});
+        for (auto at = children.rbegin(); at != children.rend(); ++at)
+            open.push_back({at->get<std::size_t>(), transform});
     }
     return placed;
 }

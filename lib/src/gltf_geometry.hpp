@@ -12,14 +12,14 @@ namespace burin {
 
 // Sizes of an accessor's elements.
 struct AccessorKind {
-    int component_bytes = 0;  // 0: unknown component type
-    int components = 0;       // 0: unknown type
+    int component_bytes = 0;          // 0: unknown component type
+    int components = 0;               // 0: unknown type
     std::uint64_t element_bytes = 0;  // with the padding of matrix columns
 };
 AccessorKind accessor_kind(const Json& accessor);
 
-// Values of an accessor, `components` each, sparse ones put in place, normalized integers as glTF decodes them.
-// Requires: check of the accessor passed.
+// Values of an accessor, `components` each, sparse ones put in place, normalized integers as glTF decodes
+// them. Requires: check of the accessor passed.
 std::vector<float> read_numbers(const ModelData& model, std::size_t accessor);
 std::vector<std::uint32_t> read_indices(const ModelData& model, std::size_t accessor);
 
@@ -31,8 +31,8 @@ struct PlacedMesh {
     Matrix transform{};
 };
 
-// The default scene's meshes (all root nodes when there is no scene; all meshes when there is no node), in the order of
-// a walk from the roots. Requires: check_document passed.
+// The default scene's meshes (all root nodes when there is no scene; all meshes when there is no node), in
+// the order of a walk from the roots. Requires: check_document passed.
 std::vector<PlacedMesh> placed_meshes(const ModelData& model);
 
 // Indices of a primitive's triangles; empty for points and lines. Strips and fans are unrolled.

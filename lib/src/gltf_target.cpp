@@ -41,7 +41,8 @@ std::string quoted_names(const ModelData& model, const std::set<std::size_t>& ma
     for (const std::size_t i : materials) {
         if (shown++ == kMostNames) return text + ", ...";
         const std::string name = material_name(model, i);
-        text += (text.empty() ? "" : ", ") + (name.empty() ? "(no name, number " + std::to_string(i) + ")" : "'" + name + "'");
+        text += (text.empty() ? "" : ", ") +
+                (name.empty() ? "(no name, number " + std::to_string(i) + ")" : "'" + name + "'");
     }
     return text;
 }
@@ -51,16 +52,18 @@ Result<std::size_t> choose_material(const ModelData& model, const std::string& w
     if (used.empty()) return model_error("the model has no triangles that a pattern could go onto");
     if (wanted.empty()) {
         if (used.size() == 1) return *used.begin();
-        return model_error("the model has " + std::to_string(used.size()) + " materials: " + quoted_names(model, used) +
-                           "; name one of them");
+        return model_error("the model has " + std::to_string(used.size()) +
+                           " materials: " + quoted_names(model, used) + "; name one of them");
     }
     std::set<std::size_t> found;
     for (const std::size_t i : used)
         if (material_name(model, i) == wanted) found.insert(i);
     if (found.size() == 1) return *found.begin();
     if (found.empty())
-        return model_error("no triangle has a material named '" + wanted + "'; the model has " + quoted_names(model, used));
-    return model_error(std::to_string(found.size()) + " materials are named '" + wanted + "'; give them different names");
+        return model_error("no triangle has a material named '" + wanted + "'; the model has " +
+                           quoted_names(model, used));
+    return model_error(std::to_string(found.size()) + " materials are named '" + wanted +
+                       "'; give them different names");
 }
 
 // Sums over triangles, weighted by their area in space.
@@ -77,7 +80,8 @@ void add_triangle(const std::array<Vec3, 3>& p, const std::array<Vec2, 3>& uv, S
         e[k] = p[1][k] - p[0][k];
         f[k] = p[2][k] - p[0][k];
     }
-    const double area = std::hypot(e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]) / 2;
+    const double area =
+        std::hypot(e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]) / 2;
     if (!(std::abs(det) > 1e-14) || !(area > 0.0)) return;
     for (std::size_t k = 0; k < 3; ++k) {
         du[k] = (e[k] * b.y - f[k] * a.y) / det;
@@ -88,8 +92,8 @@ void add_triangle(const std::array<Vec3, 3>& p, const std::array<Vec2, 3>& uv, S
     scale.along_v += area * std::hypot(dv[0], dv[1], dv[2]);
 }
 
-void add_primitive(const ModelData& model, const Json& primitive, std::size_t uv_accessor, const Matrix& transform,
-                   Scale& scale, std::size_t& triangles) {
+void add_primitive(const ModelData& model, const Json& primitive, std::size_t uv_accessor,
+                   const Matrix& transform, Scale& scale, std::size_t& triangles) {
     const std::vector<float> positions = read_numbers(model, *attribute_of(primitive, "POSITION"));
     const std::vector<float> uvs = read_numbers(model, uv_accessor);
     const std::vector<std::uint32_t> indices = triangle_indices(model, primitive);
@@ -111,7 +115,8 @@ void add_primitive(const ModelData& model, const Json& primitive, std::size_t uv
 Result<MaterialTarget> find_material(const Model& model, const AttachOptions& options) {
     const ModelData& data = model.data();
     if (options.tex_coord < 0 || options.tex_coord > 7)
-        return Error{ErrorCode::invalid_argument, "tex_coord is " + std::to_string(options.tex_coord) + ", it must be 0 to 7"};
+        return Error{ErrorCode::invalid_argument,
+                     "tex_coord is " + std::to_string(options.tex_coord) + ", it must be 0 to 7"};
     Result<std::size_t> chosen = choose_material(data, options.material);
     if (!chosen.ok()) return chosen.error();
     MaterialTarget target;
@@ -129,7 +134,8 @@ Result<MaterialTarget> find_material(const Model& model, const AttachOptions& op
     const Matrix identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     for (std::size_t i = 0; i < seen.size(); ++i)
         if (!seen[i]) placed.push_back({i, identity});  // outside the scene, yet it has the material
-    constexpr std::size_t kEnoughTriangles = 1u << 24;  // for a mean; instancing may multiply them without end
+    constexpr std::size_t kEnoughTriangles = 1u
+                                             << 24;  // for a mean; instancing may multiply them without end
     for (const PlacedMesh& m : placed) {
         const Json& primitives = array_of(data.document, "meshes")[m.mesh]["primitives"];
         for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -137,10 +143,12 @@ Result<MaterialTarget> find_material(const Model& model, const AttachOptions& op
             if (!is_triangles(primitive) || material_of(data, primitive) != *chosen) continue;
             const auto uv = attribute_of(primitive, set);
             if (!uv.has_value())
-                return model_error(place(data.document, "meshes", m.mesh) + ".primitives[" + std::to_string(i) +
-                                   "] has the material '" + target.name + "' but no texture coordinates " + set +
+                return model_error(place(data.document, "meshes", m.mesh) + ".primitives[" +
+                                   std::to_string(i) + "] has the material '" + target.name +
+                                   "' but no texture coordinates " + set +
                                    ", which a pattern needs; unwrap the model");
-            if (target.triangles < kEnoughTriangles) add_primitive(data, primitive, *uv, m.transform, scale, target.triangles);
+            if (target.triangles < kEnoughTriangles)
+                add_primitive(data, primitive, *uv, m.transform, scale, target.triangles);
         }
     }
     if (!(scale.area > 0.0) || !std::isfinite(scale.along_u) || !std::isfinite(scale.along_v))

@@ -10,8 +10,8 @@ namespace burin {
 namespace {
 
 constexpr const char* kReplacedNormalTexture = "burin_replaced_normal_texture";
-// Views start on multiples of four bytes as glTF asks; the textures on sixteen, so that a mapped file can be uploaded
-// as it lies.
+// Views start on multiples of four bytes as glTF asks; the textures on sixteen, so that a mapped file can be
+// uploaded as it lies.
 constexpr std::size_t kAlignment = 4, kTextureAlignment = 16;
 constexpr int kRepeat = 10497, kClampToEdge = 33071, kLinear = 9729, kLinearMipmapLinear = 9987;
 
@@ -56,7 +56,8 @@ class GlbWriter {
             Json& item = document_["images"][i];
             // The file's name tells people what the picture is.
             const std::string uri = text_or(item, "uri", "");
-            if (!item.contains("name") && uri.rfind("data:", 0) != 0) item["name"] = uri.substr(uri.find_last_of('/') + 1);
+            if (!item.contains("name") && uri.rfind("data:", 0) != 0)
+                item["name"] = uri.substr(uri.find_last_of('/') + 1);
             item.erase("uri");
             item["bufferView"] = add_view(image.bytes, kAlignment);
             item["mimeType"] = image.mime_type;
@@ -77,13 +78,16 @@ class GlbWriter {
         Result<std::vector<std::uint8_t>> png = encode_png(image);
         if (!png.ok()) return png.error();
         const std::size_t source = append_to(
-            document_, "images", {{"bufferView", add_view(*png, kAlignment)}, {"mimeType", "image/png"}, {"name", name}});
+            document_, "images",
+            {{"bufferView", add_view(*png, kAlignment)}, {"mimeType", "image/png"}, {"name", name}});
         return append_to(document_, "textures", {{"source", source}, {"sampler", sampler}, {"name", name}});
     }
 
     std::size_t add_sampler(bool repeat) {
         const int wrap = repeat ? kRepeat : kClampToEdge;
-        return append_to(document_, "samplers", {{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}, {"wrapS", wrap}, {"wrapT", wrap}});
+        return append_to(
+            document_, "samplers",
+            {{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}, {"wrapS", wrap}, {"wrapT", wrap}});
     }
 
     // Triangles without a material get one of their own when the pattern goes onto glTF's default.
@@ -94,7 +98,8 @@ class GlbWriter {
             materials.push_back({{"name", name}});
             for (Json& mesh : document_["meshes"])
                 for (Json& primitive : mesh["primitives"])
-                    if (!primitive.contains("material") && is_triangles(primitive)) primitive["material"] = index;
+                    if (!primitive.contains("material") && is_triangles(primitive))
+                        primitive["material"] = index;
         }
         return materials[index];
     }
@@ -113,14 +118,18 @@ class GlbWriter {
     }
 
   private:
-    void pad(std::size_t alignment) { binary_.resize((binary_.size() + alignment - 1) / alignment * alignment, 0); }
+    void pad(std::size_t alignment) {
+        binary_.resize((binary_.size() + alignment - 1) / alignment * alignment, 0);
+    }
 
     std::size_t add_view(const std::vector<std::uint8_t>& bytes, std::size_t alignment) {
         pad(alignment);
         const std::size_t begin = binary_.size();
         binary_.insert(binary_.end(), bytes.begin(), bytes.end());
-        if (!document_.contains("buffers") || document_["buffers"].empty()) document_["buffers"] = Json::array({Json::object()});
-        return append_to(document_, "bufferViews", {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size()}});
+        if (!document_.contains("buffers") || document_["buffers"].empty())
+            document_["buffers"] = Json::array({Json::object()});
+        return append_to(document_, "bufferViews",
+                         {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size()}});
     }
 
     // One buffer remains; names and extras of the others move under its extras.
@@ -135,7 +144,8 @@ class GlbWriter {
             if (!other.empty()) others.push_back(other);
         }
         if (!others.empty()) {
-            if (kept.contains("extras") && !kept["extras"].is_object()) kept["extras"] = {{"value", kept["extras"]}};
+            if (kept.contains("extras") && !kept["extras"].is_object())
+                kept["extras"] = {{"value", kept["extras"]}};
             kept["extras"]["burin_merged_buffers"] = others;
         }
         document_["buffers"] = Json::array({kept});
@@ -146,7 +156,8 @@ class GlbWriter {
         text.resize((text.size() + 3) / 4 * 4, ' ');
         const std::uint64_t total = 12 + 8 + text.size() + (binary.empty() ? 0 : 8 + binary.size());
         if (total > 0xffffffffull)
-            return Error{ErrorCode::limit_exceeded, "the result has " + std::to_string(total) + " bytes, glb holds 4 GiB"};
+            return Error{ErrorCode::limit_exceeded,
+                         "the result has " + std::to_string(total) + " bytes, glb holds 4 GiB"};
         std::vector<std::uint8_t> bytes;
         bytes.reserve(total);
         append_word(bytes, 0x46546c67);  // glTF
@@ -171,7 +182,8 @@ class GlbWriter {
 void set_normal_texture(Json& material, std::size_t texture, int tex_coord) {
     // Attaching a second time must not take the first fallback for the model's own.
     const bool own = material.contains("normalTexture") &&
-                     (!material.contains("extensions") || !material["extensions"].contains(std::string(kPathDetailExtension)));
+                     (!material.contains("extensions") ||
+                      !material["extensions"].contains(std::string(kPathDetailExtension)));
     if (own) {
         Json& extras = material["extras"];
         if (!extras.is_null() && !extras.is_object()) extras = {{"value", extras}};
@@ -197,8 +209,9 @@ Status add_fallback(GlbWriter& writer, Json& material, const Fallback& fallback,
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedTextures& textures, const PathDetail& detail,
-                                            const Fallback& fallback, const AttachOptions& options) {
+Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedTextures& textures,
+                                            const PathDetail& detail, const Fallback& fallback,
+                                            const AttachOptions& options) {
     assert(textures.grid.size() == static_cast<std::size_t>(textures.grid_width) * textures.grid_height * 2);
     assert(textures.data.size() == static_cast<std::size_t>(textures.data_width) * textures.data_height * 4);
     Result<MaterialTarget> target = find_material(model, options);
@@ -211,7 +224,8 @@ Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedText
     described.grid_view = static_cast<int>(writer.add_words(textures.grid, "path detail, grid"));
     described.data_view = static_cast<int>(writer.add_words(textures.data, "path detail, data"));
     Json& material = writer.material(target->index, target->name);
-    if (Status status = add_fallback(writer, material, fallback, described); !status.ok()) return status.error();
+    if (Status status = add_fallback(writer, material, fallback, described); !status.ok())
+        return status.error();
     material["extensions"][std::string(kPathDetailExtension)] = Json::parse(write_extension(described));
     writer.use_extension(std::string(kPathDetailExtension));
     return writer.finish();

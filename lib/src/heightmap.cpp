@@ -89,8 +89,9 @@ Status open_decoder(Decoder& decoder, int threads) {
     if (!decoder.input->open(std::string("memory") + c.suffix, decoder.spec, config))
         return decoder_error(c, decoder.input->geterror());
     const OIIO::ImageSpec& spec = decoder.spec;
-    if (static_cast<std::uint64_t>(spec.width) != c.width || static_cast<std::uint64_t>(spec.height) != c.height ||
-        spec.nchannels < 1 || spec.depth > 1 || spec.deep)
+    if (static_cast<std::uint64_t>(spec.width) != c.width ||
+        static_cast<std::uint64_t>(spec.height) != c.height || spec.nchannels < 1 || spec.depth > 1 ||
+        spec.deep)
         return damaged(c.format + ": the decoder sees " + size_text(spec.width, spec.height) + " texels of " +
                        std::to_string(spec.nchannels) + " channels, the header said " +
                        size_text(static_cast<std::int64_t>(c.width), static_cast<std::int64_t>(c.height)));
@@ -108,7 +109,8 @@ Layout layout_of(const OIIO::ImageSpec& spec) {
     };
     layout.rgb = {find("R"), find("G"), find("B")};
     if (layout.rgb[1] < 0 || layout.rgb[2] < 0) layout.rgb[0] = -1;
-    layout.alpha = spec.alpha_channel >= 0 && spec.alpha_channel < spec.nchannels ? spec.alpha_channel : find("A");
+    layout.alpha =
+        spec.alpha_channel >= 0 && spec.alpha_channel < spec.nchannels ? spec.alpha_channel : find("A");
     const int others = layout.count - (layout.alpha >= 0 ? 1 : 0);
     if (others == 1) layout.grey = layout.alpha == 0 ? 1 : 0;
     if (layout.count == 1) {  // even when the file calls it alpha
@@ -147,7 +149,8 @@ Result<Selection> select_channel(const Layout& layout, Channel wanted) {
     return Selection{Mix::luma, layout.rgb[0], "luma"};
 }
 
-float mix_texel(const float* texel, const Layout& layout, const Selection& selection, Statistics& statistics) {
+float mix_texel(const float* texel, const Layout& layout, const Selection& selection,
+                Statistics& statistics) {
     if (selection.mix == Mix::single) return texel[selection.channel];
     const float r = texel[layout.rgb[0]], g = texel[layout.rgb[1]], b = texel[layout.rgb[2]];
     if (r == g && g == b) return r;  // exactly, where a weighted sum would round
@@ -175,9 +178,16 @@ void take_texels(const float* band, std::size_t first, std::size_t count, const 
     }
 }
 
+int band_rows(const Container& container, const OIIO::ImageSpec& spec) {
+    if (spec.tile_width > 0) return std::max(1, spec.tile_height);
+    const std::uint64_t unit =
+        std::min<std::uint64_t>(container.band_rows, static_cast<std::uint64_t>(spec.height));
+    return static_cast<int>((kBandRows + unit - 1) / unit * unit);
+}
+
 // Decodes the whole picture once, band by band.
-Result<Statistics> decode(const Container& container, Channel wanted, std::optional<Selection> fixed, int threads,
-                          Image& image, Layout& layout, Selection& selection) {
+Result<Statistics> decode(const Container& container, Channel wanted, std::optional<Selection> fixed,
+                          int threads, Image& image, Layout& layout, Selection& selection) {
     Decoder decoder(container);
     if (Status status = open_decoder(decoder, threads); !status.ok()) return status.error();
     const OIIO::ImageSpec& spec = decoder.spec;
@@ -186,7 +196,7 @@ Result<Statistics> decode(const Container& container, Channel wanted, std::optio
     if (!chosen.ok()) return chosen.error();
     selection = *chosen;
     if (image.texels.empty()) image = Image(spec.width, spec.height);
-    const int rows = spec.tile_width > 0 ? std::max(1, spec.tile_height) : kBandRows;
+    const int rows = band_rows(container, spec);
     const auto row_values = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
     std::vector<float> band(row_values * static_cast<std::size_t>(std::min(rows, spec.height)));
     Statistics statistics;
@@ -194,14 +204,15 @@ Result<Statistics> decode(const Container& container, Channel wanted, std::optio
         const int end = std::min(spec.height, y + rows);
         const bool good =
             spec.tile_width > 0
-                ? decoder.input->read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, spec.z,
-                                            spec.z + 1, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, band.data())
+                ? decoder.input->read_tiles(0, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end,
+                                            spec.z, spec.z + 1, 0, spec.nchannels, OIIO::TypeDesc::FLOAT,
+                                            band.data())
                 : decoder.input->read_scanlines(0, 0, spec.y + y, spec.y + end, spec.z, 0, spec.nchannels,
                                                 OIIO::TypeDesc::FLOAT, band.data());
         if (!good) return decoder_error(container, decoder.input->geterror());
         take_texels(band.data(), static_cast<std::size_t>(y) * static_cast<std::size_t>(spec.width),
-                    static_cast<std::size_t>(end - y) * static_cast<std::size_t>(spec.width), layout, selection, image,
-                    statistics);
+                    static_cast<std::size_t>(end - y) * static_cast<std::size_t>(spec.width), layout,
+                    selection, image, statistics);
     }
     // Some decoders fill what is missing with grey and only complain.
     if (decoder.input->has_error()) return decoder_error(container, decoder.input->geterror());
@@ -216,10 +227,12 @@ Error not_finite_error(const Container& container, const Image& image, std::size
 }
 
 // The automatic choice, once the colors are known: another mix than the first one, or nothing.
-std::optional<Selection> better_selection(const Layout& layout, const Statistics& statistics, std::size_t texels,
-                                          Selection& selection, std::vector<std::string>& notes) {
+std::optional<Selection> better_selection(const Layout& layout, const Statistics& statistics,
+                                          std::size_t texels, Selection& selection,
+                                          std::vector<std::string>& notes) {
     const bool constant = statistics.low == statistics.high;
-    if (constant && !statistics.colored && layout.alpha >= 0 && statistics.alpha_low < statistics.alpha_high) {
+    if (constant && !statistics.colored && layout.alpha >= 0 &&
+        statistics.alpha_low < statistics.alpha_high) {
         notes.push_back("the colors are the same everywhere, so the alpha channel is taken as height");
         return Selection{Mix::single, layout.alpha, "alpha"};
     }
@@ -230,8 +243,9 @@ std::optional<Selection> better_selection(const Layout& layout, const Statistics
     }
     const double range = std::max(1.0, static_cast<double>(statistics.high) - statistics.low);
     if (statistics.difference / static_cast<double>(texels) <= kStrongDifference * range) return std::nullopt;
-    notes.push_back("red, green and blue differ strongly, so their mean is taken; choose one of them if each holds a map "
-                    "of its own");
+    notes.push_back(
+        "red, green and blue differ strongly, so their mean is taken; choose one of them if each holds a map "
+        "of its own");
     return Selection{Mix::mean, layout.rgb[0], "mean"};
 }
 
@@ -253,8 +267,8 @@ void normalise(const Statistics& statistics, Polarity polarity, HeightMap& map) 
     if (statistics.low < 0.0f || statistics.high > 1.0f) {
         map.source_low = statistics.low;
         map.source_high = statistics.high;
-        map.notes.push_back("values run from " + number_text(statistics.low) + " to " + number_text(statistics.high) +
-                            "; this range is mapped to 0..1");
+        map.notes.push_back("values run from " + number_text(statistics.low) + " to " +
+                            number_text(statistics.high) + "; this range is mapped to 0..1");
         // In double: the range of two floats may not fit into one.
         const double low = statistics.low, range = static_cast<double>(statistics.high) - low;
         for (float& v : texels) v = range > 0.0 ? static_cast<float>((v - low) / range) : 1.0f;
@@ -271,12 +285,15 @@ Result<HeightMap> read_contained(const Container& container, const HeightMapOpti
         decode(container, options.channel, std::nullopt, options.threads, map.image, layout, selection);
     if (!statistics.ok()) return statistics.error();
     if (options.channel == Channel::automatic && !statistics->not_finite.has_value()) {
-        const auto better = better_selection(layout, *statistics, map.image.texels.size(), selection, map.notes);
+        const auto better =
+            better_selection(layout, *statistics, map.image.texels.size(), selection, map.notes);
         if (better.has_value())
-            statistics = decode(container, options.channel, better, options.threads, map.image, layout, selection);
+            statistics =
+                decode(container, options.channel, better, options.threads, map.image, layout, selection);
         if (!statistics.ok()) return statistics.error();
     }
-    if (statistics->not_finite.has_value()) return not_finite_error(container, map.image, *statistics->not_finite);
+    if (statistics->not_finite.has_value())
+        return not_finite_error(container, map.image, *statistics->not_finite);
     map.bit_depth = container.bit_depth;
     map.is_float = container.is_float;
     map.lossy = container.lossy;
@@ -292,8 +309,8 @@ Result<HeightMap> read_contained(const Container& container, const HeightMapOpti
 
 Result<HeightMap> read_height_map(const std::string& path, const HeightMapOptions& options) {
     if (options.max_texels < 1 || options.max_texels >= 1ull << 32)
-        return Error{ErrorCode::invalid_argument, "max_texels is " + std::to_string(options.max_texels) +
-                                                      ", it must lie in [1, 2^32)"};
+        return Error{ErrorCode::invalid_argument,
+                     "max_texels is " + std::to_string(options.max_texels) + ", it must lie in [1, 2^32)"};
     Result<std::vector<std::uint8_t>> file = read_file(path, options.max_file_bytes);
     if (!file.ok()) return file.error();
     const auto named = [&](const Error& error) {

@@ -79,8 +79,9 @@ Status write_grey_png(const std::string& path, const Image& heights) {
     rows.reserve(heights.texels.size() * 2);
     for (const float v : heights.texels) {
         if (!(v >= 0.0f && v <= 1.0f))
-            return Error{ErrorCode::invalid_argument, "PNG holds heights from 0 to 1, got " + std::to_string(v) +
-                                                          "; write '" + path + "' as .exr or .tif"};
+            return Error{ErrorCode::invalid_argument, "PNG holds heights from 0 to 1, got " +
+                                                          std::to_string(v) + "; write '" + path +
+                                                          "' as .exr or .tif"};
         const auto code = static_cast<std::uint16_t>(std::lround(v * 65535.0f));
         rows.push_back(static_cast<std::uint8_t>(code >> 8));
         rows.push_back(static_cast<std::uint8_t>(code));
@@ -121,9 +122,9 @@ Status write_png(const std::string& path, const RgbaImage& image) {
 
 Status write_height(const std::string& path, const Image& heights) {
     if (heights.width < 1 || heights.height < 1 || heights.width > 65535 || heights.height > 65535)
-        return Error{ErrorCode::invalid_argument, "cannot write '" + path + "': size " +
-                                                      std::to_string(heights.width) + "x" +
-                                                      std::to_string(heights.height) + ", sides must be 1 to 65535"};
+        return Error{ErrorCode::invalid_argument,
+                     "cannot write '" + path + "': size " + std::to_string(heights.width) + "x" +
+                         std::to_string(heights.height) + ", sides must be 1 to 65535"};
     const std::string suffix = suffix_of(path);
     if (suffix == ".exr") return write_exr(path, heights);
     if (suffix == ".tif" || suffix == ".tiff") return write_tiff(path, heights);

@@ -19,7 +19,8 @@ class Builder {
         const std::size_t begin = bytes_.size();
         for (const float v : values) append(std::bit_cast<std::uint32_t>(v), 4);
         static constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
-        return accessor(begin, kVertexTarget, kFloat, values.size() / static_cast<std::size_t>(components), kTypes[components]);
+        return accessor(begin, kVertexTarget, kFloat, values.size() / static_cast<std::size_t>(components),
+                        kTypes[components]);
     }
 
     std::size_t indices(const std::vector<std::uint32_t>& values, std::size_t vertices) {
@@ -27,7 +28,8 @@ class Builder {
         // 65535 itself is glTF's mark of a restart.
         const int size = vertices <= 65535 ? 2 : 4;
         for (const std::uint32_t v : values) append(v, size);
-        return accessor(begin, kIndexTarget, size == 2 ? kUnsignedShort : kUnsignedInt, values.size(), "SCALAR");
+        return accessor(begin, kIndexTarget, size == 2 ? kUnsignedShort : kUnsignedInt, values.size(),
+                        "SCALAR");
     }
 
     // glTF asks for the bounds of positions.
@@ -50,8 +52,10 @@ class Builder {
 
     std::size_t accessor(std::size_t begin, int target, int component, std::size_t count, const char* type) {
         const std::size_t view = document_["bufferViews"].size();
-        document_["bufferViews"].push_back(
-            {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes_.size() - begin}, {"target", target}});
+        document_["bufferViews"].push_back({{"buffer", 0},
+                                            {"byteOffset", begin},
+                                            {"byteLength", bytes_.size() - begin},
+                                            {"target", target}});
         bytes_.resize((bytes_.size() + 3) / 4 * 4, 0);
         document_["accessors"].push_back(
             {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
@@ -99,7 +103,9 @@ ModelData make_document(const std::string& name, const std::vector<MeshPart>& pa
         if (!part.uvs.empty()) attributes["TEXCOORD_0"] = builder.floats(part.uvs, 2);
         const std::size_t indices = builder.indices(part.indices, part.positions.size() / 3);
         document["meshes"][0]["primitives"].push_back(
-            {{"attributes", attributes}, {"indices", indices}, {"material", material_index(document, part.material)}});
+            {{"attributes", attributes},
+             {"indices", indices},
+             {"material", material_index(document, part.material)}});
     }
     document["buffers"][0]["byteLength"] = model.buffers[0].size();
     // Numbers made here are signed; what is read from a file is unsigned, and the checks rely on it.

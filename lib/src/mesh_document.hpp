@@ -17,7 +17,8 @@ struct MeshPart {
     std::vector<std::uint32_t> indices;
 };
 
-// One node, one mesh, one primitive per part, one buffer. Requires: parts not empty, each with at least one triangle.
+// One node, one mesh, one primitive per part, one buffer. Requires: parts not empty, each with at least one
+// triangle.
 ModelData make_document(const std::string& name, const std::vector<MeshPart>& parts);
 
 }  // namespace burin

@@ -17,9 +17,12 @@ namespace {
 
 // glb by its magic; JSON by its first character; the rest is taken for OBJ.
 bool looks_like_gltf(std::span<const std::uint8_t> bytes) {
-    if (bytes.size() >= 4 && bytes[0] == 'g' && bytes[1] == 'l' && bytes[2] == 'T' && bytes[3] == 'F') return true;
+    if (bytes.size() >= 4 && bytes[0] == 'g' && bytes[1] == 'l' && bytes[2] == 'T' && bytes[3] == 'F')
+        return true;
     std::size_t at = bytes.size() >= 3 && bytes[0] == 0xef && bytes[1] == 0xbb && bytes[2] == 0xbf ? 3 : 0;
-    while (at < bytes.size() && (bytes[at] == ' ' || bytes[at] == '\t' || bytes[at] == '\r' || bytes[at] == '\n')) ++at;
+    while (at < bytes.size() &&
+           (bytes[at] == ' ' || bytes[at] == '\t' || bytes[at] == '\r' || bytes[at] == '\n'))
+        ++at;
     return at < bytes.size() && bytes[at] == '{';
 }
 
@@ -42,7 +45,8 @@ Result<Model> read_model(const std::string& path) {
     if (!bytes.ok()) return bytes.error();
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     Result<Model> model = read_model_bytes(*bytes, folder.empty() ? "." : folder.string());
-    if (!model.ok()) return Error{model.error().code, "cannot read model '" + path + "': " + model.error().message};
+    if (!model.ok())
+        return Error{model.error().code, "cannot read model '" + path + "': " + model.error().message};
     return model;
 }
 

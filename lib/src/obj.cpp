@@ -41,13 +41,14 @@ Vec3 cross_of(const Vec3& a, const Vec3& b) {
 }
 double dot_of(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Corners of one polygon by ear clipping, in the plane of its own normal. A polygon that crosses itself, or is flat to
-// a line, falls back to a fan.
+// Corners of one polygon by ear clipping, in the plane of its own normal. A polygon that crosses itself, or
+// is flat to a line, falls back to a fan.
 class EarClipper {
   public:
     explicit EarClipper(const std::vector<Vec3>& corners) : corners_(corners) {
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            const Vec3 edge = cross_of(minus(corners[i], corners[0]), minus(corners[(i + 1) % corners.size()], corners[0]));
+            const Vec3 edge =
+                cross_of(minus(corners[i], corners[0]), minus(corners[(i + 1) % corners.size()], corners[0]));
             for (std::size_t k = 0; k < 3; ++k) normal_[k] += edge[k];
             left_.push_back(i);
         }
@@ -76,7 +77,8 @@ class EarClipper {
         const std::size_t a = before(i), b = left_[i], c = after(i);
         if (turn(a, b, c) <= 0.0) return false;
         return std::none_of(left_.begin(), left_.end(), [&](std::size_t p) {
-            return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+            return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
+                   turn(c, a, p) >= 0.0;
         });
     }
 
@@ -99,14 +101,17 @@ class ObjReader {
 
     Result<ModelData> run() {
         if (text_.find('\0') != std::string_view::npos)
-            return Error{ErrorCode::unsupported, "it is neither glTF nor text; models are read from .gltf, .glb and .obj"};
+            return Error{ErrorCode::unsupported,
+                         "it is neither glTF nor text; models are read from .gltf, .glb and .obj"};
         while (!text_.empty()) {
             ++line_number_;
             if (Status status = statement(next_line()); !status.ok()) return status.error();
         }
-        if (faces_ == 0) return model_error("OBJ: there is no face, in " + std::to_string(line_number_) + " lines");
+        if (faces_ == 0)
+            return model_error("OBJ: there is no face, in " + std::to_string(line_number_) + " lines");
         if (positions_.size() > kMaxModelVertices)
-            return Error{ErrorCode::limit_exceeded, "OBJ: " + std::to_string(positions_.size()) + " vertices, limit " +
+            return Error{ErrorCode::limit_exceeded, "OBJ: " + std::to_string(positions_.size()) +
+                                                        " vertices, limit " +
                                                         std::to_string(kMaxModelVertices)};
         compute_missing_normals();
         std::vector<MeshPart> parts;
@@ -152,22 +157,26 @@ class ObjReader {
         if (key == "usemtl") {
             // A name may hold blanks; those at its ends do not count.
             const std::size_t begin = line.find_first_not_of(" \t"), end = line.find_last_not_of(" \t\r");
-            material_ = begin == std::string_view::npos ? "default" : std::string(line.substr(begin, end - begin + 1));
+            material_ = begin == std::string_view::npos ? "default"
+                                                        : std::string(line.substr(begin, end - begin + 1));
             // The name goes into JSON, which is UTF-8 only.
             for (char& c : material_)
                 if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = '_';
         } else if (!key.empty() && key[0] != '#' && !is_passed_over(key)) {
-            return fail("'" + printable(key) + "' is no statement of OBJ; models are read from .gltf, .glb and .obj");
+            return fail("'" + printable(key) +
+                        "' is no statement of OBJ; models are read from .gltf, .glb and .obj");
         }
         return Done{};
     }
 
     static bool is_passed_over(std::string_view key) {
         static constexpr std::array<std::string_view, 30> kKeys{
-            "g", "o", "s", "l", "p", "mg", "vp", "mtllib", "usemap", "maplib", "cstype", "deg", "bmat", "step", "curv",
-            "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "bevel", "c_interp", "d_interp", "lod",
-            "shadow_obj", "trace_obj"};
-        return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end() || key == "ctech" || key == "stech" || key == "call";
+            "g",      "o",        "s",        "l",    "p",          "mg",       "vp",   "mtllib",
+            "usemap", "maplib",   "cstype",   "deg",  "bmat",       "step",     "curv", "curv2",
+            "surf",   "parm",     "trim",     "hole", "scrv",       "sp",       "end",  "con",
+            "bevel",  "c_interp", "d_interp", "lod",  "shadow_obj", "trace_obj"};
+        return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end() || key == "ctech" ||
+               key == "stech" || key == "call";
     }
 
     static std::string printable(std::string_view word) {
@@ -188,13 +197,15 @@ class ObjReader {
             const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
             // Beyond 1e30 products of coordinates would leave the range of float.
             const bool tiny = problem == std::errc::result_out_of_range && std::abs(value) < 1.0;
-            if ((problem != std::errc{} && !tiny) || end != word.data() + word.size() || !(std::abs(value) <= 1e30))
+            if ((problem != std::errc{} && !tiny) || end != word.data() + word.size() ||
+                !(std::abs(value) <= 1e30))
                 return fail("'" + printable(word) + "' is no number within 1e30");
             values[i] = static_cast<float>(value);
         }
         list.push_back(values);
         if (list.size() > kMaxModelVertices)
-            return Error{ErrorCode::limit_exceeded, "OBJ: more than " + std::to_string(kMaxModelVertices) + " vertices"};
+            return Error{ErrorCode::limit_exceeded,
+                         "OBJ: more than " + std::to_string(kMaxModelVertices) + " vertices"};
         return Done{};
     }
 
@@ -213,20 +224,25 @@ class ObjReader {
         const std::size_t first = word.find('/');
         const std::size_t second = first == std::string_view::npos ? first : word.find('/', first + 1);
         const auto position = index(word.substr(0, first), positions_.size());
-        if (!position.has_value()) return fail("corner '" + printable(word) + "': there are " +
-                                               std::to_string(positions_.size()) + " positions");
+        if (!position.has_value())
+            return fail("corner '" + printable(word) + "': there are " + std::to_string(positions_.size()) +
+                        " positions");
         result.position = *position;
         if (first == std::string_view::npos) return result;
-        const std::string_view uv = word.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
+        const std::string_view uv =
+            word.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
         if (!uv.empty()) {
             const auto at = index(uv, uvs_.size());
-            if (!at.has_value()) return fail("corner '" + printable(word) + "': there are " + std::to_string(uvs_.size()) +
-                                             " texture coordinates");
+            if (!at.has_value())
+                return fail("corner '" + printable(word) + "': there are " + std::to_string(uvs_.size()) +
+                            " texture coordinates");
             result.uv = *at;
         }
         if (second == std::string_view::npos) return result;
         const auto at = index(word.substr(second + 1), normals_.size());
-        if (!at.has_value()) return fail("corner '" + printable(word) + "': there are " + std::to_string(normals_.size()) + " normals");
+        if (!at.has_value())
+            return fail("corner '" + printable(word) + "': there are " + std::to_string(normals_.size()) +
+                        " normals");
         result.normal = *at;
         return result;
     }
@@ -238,7 +254,8 @@ class ObjReader {
             if (!read.ok()) return read.error();
             corners.push_back(*read);
             if (corners.size() > kMaxCorners)
-                return Error{ErrorCode::limit_exceeded, "OBJ: line " + std::to_string(line_number_) + ": a face has more than " +
+                return Error{ErrorCode::limit_exceeded, "OBJ: line " + std::to_string(line_number_) +
+                                                            ": a face has more than " +
                                                             std::to_string(kMaxCorners) + " corners"};
         }
         if (corners.size() < 3) return fail("a face has " + std::to_string(corners.size()) + " corners");
@@ -256,7 +273,8 @@ class ObjReader {
     }
 
     static std::uint32_t vertex(Group& group, const Corner& corner) {
-        const auto [at, is_new] = group.known.try_emplace(corner, static_cast<std::uint32_t>(group.corners.size()));
+        const auto [at, is_new] =
+            group.known.try_emplace(corner, static_cast<std::uint32_t>(group.corners.size()));
         if (is_new) group.corners.push_back(corner);
         return at->second;
     }
@@ -290,7 +308,8 @@ class ObjReader {
         MeshPart result;
         result.material = name;
         result.indices = group.indices;
-        const bool has_uv = std::all_of(group.corners.begin(), group.corners.end(), [](const Corner& c) { return c.uv != Corner::kNone; });
+        const bool has_uv = std::all_of(group.corners.begin(), group.corners.end(),
+                                        [](const Corner& c) { return c.uv != Corner::kNone; });
         for (const Corner& c : group.corners) {
             const auto& p = positions_[c.position];
             result.positions.insert(result.positions.end(), p.begin(), p.end());

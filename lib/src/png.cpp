@@ -10,8 +10,8 @@
 namespace burin {
 namespace {
 
-// Large pictures: level 6 costs a third of level 9 and comes within a percent. Small ones are packed with several
-// filters at level 9 and the shortest result is kept; they travel inside models.
+// Large pictures: level 6 costs a third of level 9 and comes within a percent. Small ones are packed with
+// several filters at level 9 and the shortest result is kept; they travel inside models.
 constexpr int kFastLevel = 6, kBestLevel = 9;
 constexpr std::size_t kSmallPicture = 1u << 20;  // bytes of its rows
 constexpr int kAdaptive = -1;                    // the filter is chosen for each row
@@ -27,8 +27,8 @@ void append_chunk(std::vector<std::uint8_t>& png, const char (&type)[5], const s
     const std::size_t from = png.size();
     png.insert(png.end(), type, type + 4);
     png.insert(png.end(), data, data + size);
-    append_big_endian(png, static_cast<std::uint32_t>(
-                               crc32(0, png.data() + from, static_cast<uInt>(png.size() - from))));
+    append_big_endian(
+        png, static_cast<std::uint32_t>(crc32(0, png.data() + from, static_cast<uInt>(png.size() - from))));
 }
 
 int paeth(int a, int b, int c) {
@@ -36,7 +36,8 @@ int paeth(int a, int b, int c) {
     return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 }
 
-// One row under one of the five filters of PNG; returns the sum of absolute residuals, the usual guess at its size.
+// One row under one of the five filters of PNG; returns the sum of absolute residuals, the usual guess at its
+// size.
 std::uint64_t filter_row(int filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t size,
                          std::size_t step, std::uint8_t* out) {
     std::uint64_t sum = 0;
@@ -56,8 +57,8 @@ std::uint64_t filter_row(int filter, const std::uint8_t* row, const std::uint8_t
 }
 
 // Filter type byte and residuals of every row; one filter for all, or the likeliest for each.
-std::vector<std::uint8_t> filter_rows(const std::vector<std::uint8_t>& rows, std::size_t row_size, std::size_t step,
-                                      int wanted) {
+std::vector<std::uint8_t> filter_rows(const std::vector<std::uint8_t>& rows, std::size_t row_size,
+                                      std::size_t step, int wanted) {
     const std::size_t count = rows.size() / row_size;
     std::vector<std::uint8_t> filtered;
     filtered.reserve(rows.size() + count);
@@ -106,11 +107,15 @@ Result<std::vector<std::uint8_t>> deflate_all(const std::vector<std::uint8_t>& i
     return output;
 }
 
-Result<std::vector<std::uint8_t>> pack_rows(const std::vector<std::uint8_t>& rows, std::size_t row_size, std::size_t step) {
-    if (rows.size() > kSmallPicture) return deflate_all(filter_rows(rows, row_size, step, kAdaptive), kFastLevel);
-    Result<std::vector<std::uint8_t>> best = deflate_all(filter_rows(rows, row_size, step, kAdaptive), kBestLevel);
+Result<std::vector<std::uint8_t>> pack_rows(const std::vector<std::uint8_t>& rows, std::size_t row_size,
+                                            std::size_t step) {
+    if (rows.size() > kSmallPicture)
+        return deflate_all(filter_rows(rows, row_size, step, kAdaptive), kFastLevel);
+    Result<std::vector<std::uint8_t>> best =
+        deflate_all(filter_rows(rows, row_size, step, kAdaptive), kBestLevel);
     for (const int filter : {0, 2, 4}) {  // none, above, Paeth
-        Result<std::vector<std::uint8_t>> other = deflate_all(filter_rows(rows, row_size, step, filter), kBestLevel);
+        Result<std::vector<std::uint8_t>> other =
+            deflate_all(filter_rows(rows, row_size, step, filter), kBestLevel);
         if (best.ok() && other.ok() && other->size() < best->size()) best = std::move(other);
     }
     return best;
@@ -123,7 +128,8 @@ Result<std::vector<std::uint8_t>> encode_png_rows(int width, int height, int cha
     constexpr int kMaxSide = 65535;
     if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
         return Error{ErrorCode::invalid_argument, "PNG: size " + std::to_string(width) + "x" +
-                                                      std::to_string(height) + ", each side must be 1 to 65535"};
+                                                      std::to_string(height) +
+                                                      ", each side must be 1 to 65535"};
     const std::size_t step = static_cast<std::size_t>(channels) * (bit_depth / 8);
     const std::size_t row_size = step * static_cast<std::size_t>(width);
     assert(rows.size() == row_size * static_cast<std::size_t>(height));
@@ -135,7 +141,8 @@ Result<std::vector<std::uint8_t>> encode_png_rows(int width, int height, int cha
     append_big_endian(header, static_cast<std::uint32_t>(width));
     append_big_endian(header, static_cast<std::uint32_t>(height));
     constexpr std::uint8_t kColorTypes[] = {0, 0, 4, 2, 6};  // by channel count
-    for (const int v : {bit_depth, int{kColorTypes[channels]}, 0, 0, 0}) header.push_back(static_cast<std::uint8_t>(v));
+    for (const int v : {bit_depth, int{kColorTypes[channels]}, 0, 0, 0})
+        header.push_back(static_cast<std::uint8_t>(v));
     append_chunk(png, "IHDR", header.data(), header.size());
     constexpr std::size_t kMaxChunk = 1u << 30;
     for (std::size_t at = 0; at < data->size(); at += kMaxChunk)

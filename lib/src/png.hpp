@@ -1,5 +1,5 @@
-// PNG encoding of 8 and 16 bit rows, for the sources of this library only. Deterministic: the same texels give the
-// same bytes on every machine with the same deflate.
+// PNG encoding of 8 and 16 bit rows, for the sources of this library only. Deterministic: the same texels
+// give the same bytes on every machine with the same deflate.
 #pragma once
 
 #include <cstdint>

@@ -13,7 +13,9 @@ struct Normal {
 };
 
 Normal normal_at(const RgbaImage& image, int x, int y) {
-    const std::uint8_t* t = image.texels.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
+    const std::uint8_t* t =
+        image.texels.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                   static_cast<std::size_t>(x));
     return {t[0] / 127.5 - 1, t[1] / 127.5 - 1, t[2] / 127.5 - 1};
 }
 
@@ -21,13 +23,15 @@ Image slope_image(int w, int h, double along_x, double along_y) {
     Image image(w, h);
     for (int y = 0; y < h; ++y)
         for (int x = 0; x < w; ++x)
-            image.at(x, y) = static_cast<float>(0.5 + along_x * ((x + 0.5) / w - 0.5) + along_y * ((y + 0.5) / h - 0.5));
+            image.at(x, y) =
+                static_cast<float>(0.5 + along_x * ((x + 0.5) / w - 0.5) + along_y * ((y + 0.5) / h - 0.5));
     return image;
 }
 
 TEST(Bake, RampsLeanAsGltfAsks) {
     // Height 0.5 m over 2 m along u, 0.25 m over 1 m along v: slope 0.25 both ways.
-    const Fallback f = bake_fallback(slope_image(64, 64, 0.5, 0.25), {2, 1}, 1.0, Wrap::clamp, {.normal_tolerance = 0.0});
+    const Fallback f =
+        bake_fallback(slope_image(64, 64, 0.5, 0.25), {2, 1}, 1.0, Wrap::clamp, {.normal_tolerance = 0.0});
     ASSERT_EQ(f.normal.width, 64);
     const Normal n = normal_at(f.normal, 20, 40);
     const double scale = 1 / std::sqrt(1 + 2 * 0.25 * 0.25);
@@ -82,7 +86,8 @@ TEST(Bake, GroovesAreDarkerThanTheirBanks) {
 
 TEST(Bake, EqualInputGivesEqualTexels) {
     const Image image = slope_image(50, 30, 0.3, -0.4);
-    EXPECT_EQ(bake_fallback(image, {1, 1}, 0.1, Wrap::repeat).normal.texels, bake_fallback(image, {1, 1}, 0.1, Wrap::repeat).normal.texels);
+    EXPECT_EQ(bake_fallback(image, {1, 1}, 0.1, Wrap::repeat).normal.texels,
+              bake_fallback(image, {1, 1}, 0.1, Wrap::repeat).normal.texels);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Every damaged, hostile or unusual file of the shared data, read as height map and as model: an error with a message,
-// or, for what is merely unusual, a correct result. A crash, or 10 s of processor time for one file, ends the program.
+// Every damaged, hostile or unusual file of the shared data, read as height map and as model: an error with a
+// message, or, for what is merely unusual, a correct result. A crash, or 10 s of processor time for one file,
+// ends the program.
 #include <burin/heightmap.hpp>
 #include <burin/model.hpp>
 
@@ -19,13 +20,14 @@ namespace fs = std::filesystem;
 std::vector<std::string> broken_files() {
     std::vector<std::string> files;
     std::error_code absent;
-    for (const auto& entry : fs::directory_iterator(std::string(BURIN_SHARED_DATA) + "/broken", absent)) files.push_back(entry.path().string());
+    for (const auto& entry : fs::directory_iterator(std::string(BURIN_SHARED_DATA) + "/broken", absent))
+        files.push_back(entry.path().string());
     std::sort(files.begin(), files.end());
     return files;
 }
 
-// The process ends by SIGPROF when it computes longer than that before the next call; 0: no limit. Processor time, so
-// that other work on the machine does not count.
+// The process ends by SIGPROF when it computes longer than that before the next call; 0: no limit. Processor
+// time, so that other work on the machine does not count.
 void limit_seconds(int seconds) {
 #ifdef __SANITIZE_ADDRESS__
     seconds *= 10;
@@ -45,12 +47,14 @@ class BrokenFiles : public ::testing::Test {
 };
 
 bool says_something(const Error& error) {
-    return !error.message.empty() && error.message.find('\n') == std::string::npos && error.message.size() < 400;
+    return !error.message.empty() && error.message.find('\n') == std::string::npos &&
+           error.message.size() < 400;
 }
 
 TEST_F(BrokenFiles, AsHeightMaps) {
     // Damaged only in metadata that heights do not need.
-    const std::set<std::string> readable{"png_bad_broken_iccp.png", "png_bad_iccp_scratches_gold01_1k.png", "png_bug_acid2.png"};
+    const std::set<std::string> readable{"png_bad_broken_iccp.png", "png_bad_iccp_scratches_gold01_1k.png",
+                                         "png_bug_acid2.png"};
     // Valid, but coded in ways that are not promised.
     const std::set<std::string> refused{"tif_edge_thunderscan_text.tif"};
     for (const std::string& file : files_) {
@@ -59,12 +63,14 @@ TEST_F(BrokenFiles, AsHeightMaps) {
         limit_seconds(10);
         const auto map = read_height_map(file);
         const bool edge = name.find("_edge_") != std::string::npos;
-        EXPECT_EQ(map.ok(), readable.count(name) != 0 || (edge && refused.count(name) == 0)) << (map.ok() ? "" : map.error().message);
+        EXPECT_EQ(map.ok(), readable.count(name) != 0 || (edge && refused.count(name) == 0))
+            << (map.ok() ? "" : map.error().message);
         if (!map.ok()) {
             EXPECT_TRUE(says_something(map.error())) << map.error().message;
             continue;
         }
-        ASSERT_EQ(map->image.texels.size(), static_cast<std::size_t>(map->image.width) * static_cast<std::size_t>(map->image.height));
+        ASSERT_EQ(map->image.texels.size(),
+                  static_cast<std::size_t>(map->image.width) * static_cast<std::size_t>(map->image.height));
         for (const float v : map->image.texels) ASSERT_TRUE(v >= 0.0f && v <= 1.0f);
     }
 #ifndef __SANITIZE_ADDRESS__

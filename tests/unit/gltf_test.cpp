@@ -64,13 +64,17 @@ Bytes view_bytes(const Bytes& glb, const Json& document, std::size_t view) {
     return {begin, begin + v["byteLength"].get<int>()};
 }
 
-Bytes attach(const Model& model, const AttachOptions& options = {}, const PathDetail& detail = small_detail()) {
+Bytes attach(const Model& model, const AttachOptions& options = {},
+             const PathDetail& detail = small_detail()) {
     auto glb = write_glb(model, small_textures(), detail, small_fallback(), options);
     EXPECT_TRUE(glb.ok()) << (glb.ok() ? "" : glb.error().message);
     return glb.ok() ? *glb : Bytes{};
 }
 
-bool decode_nothing(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; }
+bool decode_nothing(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*,
+                    int, void*) {
+    return true;
+}
 
 TEST(Gltf, AnIndependentReaderSeesTheWholePlane) {
     const Bytes glb = attach(make_plane({1, 2}));
@@ -78,7 +82,9 @@ TEST(Gltf, AnIndependentReaderSeesTheWholePlane) {
     loader.SetImageLoader(decode_nothing, nullptr);
     tinygltf::Model model;
     std::string error, warning;
-    ASSERT_TRUE(loader.LoadBinaryFromMemory(&model, &error, &warning, glb.data(), static_cast<unsigned>(glb.size()))) << error;
+    ASSERT_TRUE(
+        loader.LoadBinaryFromMemory(&model, &error, &warning, glb.data(), static_cast<unsigned>(glb.size())))
+        << error;
     EXPECT_EQ(error, "");
     ASSERT_EQ(model.materials.size(), 1u);
     EXPECT_EQ(model.extensionsUsed, std::vector<std::string>{std::string(kPathDetailExtension)});
@@ -86,7 +92,10 @@ TEST(Gltf, AnIndependentReaderSeesTheWholePlane) {
     EXPECT_EQ(model.materials[0].extensions.count(std::string(kPathDetailExtension)), 1u);
     const int normal = model.materials[0].normalTexture.index;
     ASSERT_GE(normal, 0);
-    EXPECT_EQ(model.samplers[static_cast<std::size_t>(model.textures[static_cast<std::size_t>(normal)].sampler)].wrapS, 10497);
+    EXPECT_EQ(
+        model.samplers[static_cast<std::size_t>(model.textures[static_cast<std::size_t>(normal)].sampler)]
+            .wrapS,
+        10497);
     EXPECT_GE(model.materials[0].occlusionTexture.index, 0);
     for (const char* name : {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0"})
         EXPECT_EQ(model.meshes[0].primitives[0].attributes.count(name), 1u) << name;
@@ -120,7 +129,8 @@ TEST(Gltf, TexturesComeBackWordForWord) {
 TEST(Gltf, OwnValidatorFindsNothing) {
     const Bytes glb = attach(make_plane({1, 1}));
     validate_glb(glb, [](const Issue& issue) {
-        EXPECT_NE(issue.severity, Severity::error) << issue.number << " " << issue.message << " " << issue.pointer;
+        EXPECT_NE(issue.severity, Severity::error)
+            << issue.number << " " << issue.message << " " << issue.pointer;
     });
 }
 
@@ -128,7 +138,8 @@ TEST(Gltf, EqualInputGivesEqualBytes) { EXPECT_EQ(attach(make_plane({1, 1})), at
 
 // A document with a bit of everything that burin does not know, in three buffers.
 Json rich_document() {
-    return Json::parse(R"({"asset":{"version":"2.0","generator":"a tool","copyright":"someone","extras":{"k":1}},
+    return Json::parse(
+        R"({"asset":{"version":"2.0","generator":"a tool","copyright":"someone","extras":{"k":1}},
         "extensionsUsed":["KHR_lights_punctual","VENDOR_thing"],
         "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}},
         "scene":0,"scenes":[{"name":"s","nodes":[0,1]}],
@@ -158,12 +169,15 @@ TEST(Gltf, NothingOfTheModelIsLost) {
     ASSERT_TRUE(model.ok()) << model.error().message;
     const Bytes glb = attach(*model);
     const Json after = json_of(glb);
-    for (const char* key : {"asset", "extensions", "scene", "scenes", "nodes", "cameras", "animations", "meshes", "accessors"})
+    for (const char* key :
+         {"asset", "extensions", "scene", "scenes", "nodes", "cameras", "animations", "meshes", "accessors"})
         EXPECT_EQ(after[key], before[key]) << key;
     EXPECT_EQ(after["extensionsUsed"], (Json{"KHR_lights_punctual", "VENDOR_thing", kPathDetailExtension}));
-    EXPECT_EQ(after["materials"][0]["extensions"]["VENDOR_thing"], before["materials"][0]["extensions"]["VENDOR_thing"]);
+    EXPECT_EQ(after["materials"][0]["extensions"]["VENDOR_thing"],
+              before["materials"][0]["extensions"]["VENDOR_thing"]);
     // The normal texture gave way, and is told.
-    EXPECT_EQ(after["materials"][0]["extras"]["burin_replaced_normal_texture"], before["materials"][0]["normalTexture"]);
+    EXPECT_EQ(after["materials"][0]["extras"]["burin_replaced_normal_texture"],
+              before["materials"][0]["normalTexture"]);
     EXPECT_EQ(after["materials"][0]["extras"]["value"], "note");
     EXPECT_NE(after["materials"][0]["normalTexture"]["index"], 0);
     EXPECT_EQ(after["textures"][0], before["textures"][0]);

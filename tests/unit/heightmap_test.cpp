@@ -24,7 +24,8 @@ using test::png_of_rows;
 
 class HeightMapTest : public ::testing::Test {
   protected:
-    Result<HeightMap> read(const Bytes& bytes, const HeightMapOptions& options = {}, const std::string& name = "map.bin") {
+    Result<HeightMap> read(const Bytes& bytes, const HeightMapOptions& options = {},
+                           const std::string& name = "map.bin") {
         EXPECT_TRUE(write_file(folder_.file(name), bytes).ok());
         return read_height_map(folder_.file(name), options);
     }
@@ -45,7 +46,8 @@ class HeightMapTest : public ::testing::Test {
 
 std::vector<float> ramp(int count, float low = 0.0f, float high = 1.0f) {
     std::vector<float> values;
-    for (int i = 0; i < count; ++i) values.push_back(low + (high - low) * static_cast<float>(i) / static_cast<float>(count - 1));
+    for (int i = 0; i < count; ++i)
+        values.push_back(low + (high - low) * static_cast<float>(i) / static_cast<float>(count - 1));
     return values;
 }
 
@@ -77,7 +79,8 @@ TEST_F(HeightMapTest, GreyPngOfEveryDepth) {
         EXPECT_FALSE(map->lossy);
         ASSERT_EQ(map->image.width, 2);
         ASSERT_EQ(map->image.height, 1);
-        for (int i = 0; i < 2; ++i) EXPECT_NEAR(map->image.at(i, 0), c.values[static_cast<std::size_t>(i)], 1e-6) << c.depth;
+        for (int i = 0; i < 2; ++i)
+            EXPECT_NEAR(map->image.at(i, 0), c.values[static_cast<std::size_t>(i)], 1e-6) << c.depth;
     }
 }
 
@@ -90,9 +93,11 @@ TEST_F(HeightMapTest, PaletteGivesItsColors) {
 }
 
 TEST_F(HeightMapTest, InterlacedRowsFindTheirPlaces) {
-    // Adam7 on 8 x 1 texels: pass 1 holds column 0, pass 2 column 4, pass 4 columns 2 and 6, pass 6 the odd ones.
+    // Adam7 on 8 x 1 texels: pass 1 holds column 0, pass 2 column 4, pass 4 columns 2 and 6, pass 6 the odd
+    // ones.
     const Bytes raw{0, 0, 0, 40, 0, 20, 60, 0, 10, 30, 50, 70};
-    const auto map = read(png_file({png_header(8, 1, 8, 0, 1), png_chunk("IDAT", test::deflated(raw)), png_chunk("IEND", {})}));
+    const auto map = read(
+        png_file({png_header(8, 1, 8, 0, 1), png_chunk("IDAT", test::deflated(raw)), png_chunk("IEND", {})}));
     ASSERT_TRUE(map.ok()) << map.error().message;
     for (int x = 0; x < 8; ++x) EXPECT_NEAR(map->image.at(x, 0), x * 10 / 255.0, 1e-6);
 }
@@ -130,7 +135,8 @@ TEST_F(HeightMapTest, ColorsThatDifferALittleGiveLumaAndStronglyTheirMean) {
 
 TEST_F(HeightMapTest, AskedChannelsAndPolarity) {
     const Bytes file = png_of_rows(2, 1, 8, 6, {{10, 20, 30, 40, 11, 21, 31, 41}});
-    const std::pair<Channel, int> cases[] = {{Channel::red, 10}, {Channel::green, 20}, {Channel::blue, 30}, {Channel::alpha, 40}};
+    const std::pair<Channel, int> cases[] = {
+        {Channel::red, 10}, {Channel::green, 20}, {Channel::blue, 30}, {Channel::alpha, 40}};
     for (const auto& [channel, value] : cases) {
         const auto map = read(file, {.channel = channel});
         ASSERT_TRUE(map.ok());
@@ -139,13 +145,15 @@ TEST_F(HeightMapTest, AskedChannelsAndPolarity) {
     const auto depth = read(file, {.polarity = Polarity::depth, .channel = Channel::red});
     ASSERT_TRUE(depth.ok());
     EXPECT_NEAR(depth->image.at(0, 0), 1 - 10 / 255.0, 1e-6);
-    expect_error(read(png_of_rows(1, 1, 8, 0, {{1}}), {.channel = Channel::alpha}), ErrorCode::invalid_argument, "alpha");
+    expect_error(read(png_of_rows(1, 1, 8, 0, {{1}}), {.channel = Channel::alpha}),
+                 ErrorCode::invalid_argument, "alpha");
 }
 
 TEST_F(HeightMapTest, MetadataNeverReachesTheDecoder) {
     const Bytes raw{0, 128};
-    const auto map = read(png_file({png_header(1, 1, 8, 0), png_chunk("gAMA", {0, 1, 0x11, 0x70}), png_chunk("iCCP", {'x', 0, 0, 1, 2, 3}),
-                                    png_chunk("tRNS", {0, 128}), png_chunk("IDAT", test::deflated(raw)), png_chunk("IEND", {})}));
+    const auto map = read(png_file({png_header(1, 1, 8, 0), png_chunk("gAMA", {0, 1, 0x11, 0x70}),
+                                    png_chunk("iCCP", {'x', 0, 0, 1, 2, 3}), png_chunk("tRNS", {0, 128}),
+                                    png_chunk("IDAT", test::deflated(raw)), png_chunk("IEND", {})}));
     ASSERT_TRUE(map.ok()) << map.error().message;
     EXPECT_NEAR(map->image.at(0, 0), 128 / 255.0, 1e-6);
 }
@@ -155,26 +163,32 @@ TEST_F(HeightMapTest, DamagedPngIsToldBySort) {
     Bytes crc = good;
     crc[45] ^= 1;  // within IDAT
     expect_error(read(crc), ErrorCode::invalid_input, "checksum");
-    expect_error(read(png_file({png_header(4, 4, 8, 0), png_chunk("IEND", {})})), ErrorCode::invalid_input, "IDAT");
+    expect_error(read(png_file({png_header(4, 4, 8, 0), png_chunk("IEND", {})})), ErrorCode::invalid_input,
+                 "IDAT");
     expect_error(read(png_file({png_chunk("IDAT", {})})), ErrorCode::invalid_input, "IHDR");
     expect_error(read(png_file({png_header(4, 4, 3, 0)})), ErrorCode::invalid_input, "bit depth 3");
     expect_error(read(png_file({png_header(0, 4, 8, 0)})), ErrorCode::invalid_input, "0x4");
     // Good checksums over too little data, and over data that is no deflate stream.
     expect_error(read(png_of_rows(4, 4, 8, 0, {{1, 2, 3, 4}})), ErrorCode::invalid_input, "last row");
     expect_error(read(png_of_rows(1, 1, 8, 0, {{1}, {1}})), ErrorCode::invalid_input, "more data");
-    expect_error(read(png_file({png_header(4, 4, 8, 0), png_chunk("IDAT", {1, 2, 3, 4}), png_chunk("IEND", {})})),
-                 ErrorCode::invalid_input, "inflated");
+    expect_error(
+        read(png_file({png_header(4, 4, 8, 0), png_chunk("IDAT", {1, 2, 3, 4}), png_chunk("IEND", {})})),
+        ErrorCode::invalid_input, "inflated");
 }
 
 TEST_F(HeightMapTest, HugeSizesAreRefusedBeforeDecoding) {
     const auto bomb = [](std::uint32_t w, std::uint32_t h) {
-        return png_file({png_header(w, h, 8, 0), png_chunk("IDAT", test::deflated(Bytes(64, 0))), png_chunk("IEND", {})});
+        return png_file(
+            {png_header(w, h, 8, 0), png_chunk("IDAT", test::deflated(Bytes(64, 0))), png_chunk("IEND", {})});
     };
     expect_error(read(bomb(16000, 16000)), ErrorCode::invalid_input, "cannot hold");
     expect_error(read(bomb(0x7fffffff, 0x7fffffff)), ErrorCode::invalid_input, "cannot hold");
-    expect_error(read(png_of_rows(4, 1, 8, 0, {{1, 2, 3, 4}}), {.max_texels = 3}), ErrorCode::limit_exceeded, "limit 3");
-    expect_error(read(png_of_rows(4, 1, 8, 0, {{1, 2, 3, 4}}), {.max_file_bytes = 10}), ErrorCode::limit_exceeded, "limit 10");
-    expect_error(read(png_of_rows(1, 1, 8, 0, {{1}}), {.max_texels = 0}), ErrorCode::invalid_argument, "max_texels");
+    expect_error(read(png_of_rows(4, 1, 8, 0, {{1, 2, 3, 4}}), {.max_texels = 3}), ErrorCode::limit_exceeded,
+                 "limit 3");
+    expect_error(read(png_of_rows(4, 1, 8, 0, {{1, 2, 3, 4}}), {.max_file_bytes = 10}),
+                 ErrorCode::limit_exceeded, "limit 10");
+    expect_error(read(png_of_rows(1, 1, 8, 0, {{1}}), {.max_texels = 0}), ErrorCode::invalid_argument,
+                 "max_texels");
 }
 
 TEST_F(HeightMapTest, ContentDecidesNotTheName) {
@@ -227,10 +241,11 @@ TEST_F(HeightMapTest, TiffOfEveryPromisedKind) {
                           {"pack", OIIO::TypeDesc::UINT8, 8, false, "packbits", 0, 0.5 / 255}};
     const std::vector<float> values = ramp(50 * 40);
     for (const Case& c : cases) {
-        const auto map = read_height_map(write(std::string(c.name) + ".tif", {50, 40, 1, c.type}, values, [&](OIIO::ImageSpec& s) {
-            s.attribute("compression", c.compression);
-            if (c.tile > 0) s.tile_width = s.tile_height = c.tile;
-        }));
+        const auto map = read_height_map(
+            write(std::string(c.name) + ".tif", {50, 40, 1, c.type}, values, [&](OIIO::ImageSpec& s) {
+                s.attribute("compression", c.compression);
+                if (c.tile > 0) s.tile_width = s.tile_height = c.tile;
+            }));
         ASSERT_TRUE(map.ok()) << c.name << ": " << map.error().message;
         EXPECT_EQ(map->is_float, c.floating) << c.name;
         EXPECT_EQ(map->bit_depth, c.bits) << c.name;
@@ -244,19 +259,22 @@ TEST_F(HeightMapTest, ExrOfEveryPromisedKind) {
     for (const char* compression : {"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "dwaa"})
         for (const int tile : {0, 16})
             for (const auto type : {OIIO::TypeDesc::HALF, OIIO::TypeDesc::FLOAT}) {
-                const auto map = read_height_map(write("map.exr", {50, 40, 1, type}, values, [&](OIIO::ImageSpec& s) {
-                    s.attribute("compression", compression);
-                    s.attribute("owner", "somebody");  // dropped on the way
-                    s.channelnames = {"height"};
-                    if (tile > 0) s.tile_width = s.tile_height = tile;
-                }));
+                const auto map =
+                    read_height_map(write("map.exr", {50, 40, 1, type}, values, [&](OIIO::ImageSpec& s) {
+                        s.attribute("compression", compression);
+                        s.attribute("owner", "somebody");  // dropped on the way
+                        s.channelnames = {"height"};
+                        if (tile > 0) s.tile_width = s.tile_height = tile;
+                    }));
                 ASSERT_TRUE(map.ok()) << compression << ": " << map.error().message;
                 EXPECT_TRUE(map->is_float);
                 EXPECT_EQ(map->bit_depth, type == OIIO::TypeDesc::HALF ? 16 : 32);
                 // The writer stores scan lines as zip where dwaa was asked for.
                 const std::string name = compression;
-                EXPECT_EQ(map->lossy, name == "pxr24" || name == "b44" || (name == "dwaa" && tile > 0)) << name;
-                for (std::size_t i = 0; i < values.size(); i += 7) ASSERT_NEAR(map->image.texels[i], values[i], 0.02) << compression;
+                EXPECT_EQ(map->lossy, name == "pxr24" || name == "b44" || (name == "dwaa" && tile > 0))
+                    << name;
+                for (std::size_t i = 0; i < values.size(); i += 7)
+                    ASSERT_NEAR(map->image.texels[i], values[i], 0.02) << compression;
             }
 }
 
@@ -268,7 +286,8 @@ TEST_F(HeightMapTest, WrittenHeightsComeBack) {
         const auto map = read_height_map(folder_.file(name));
         ASSERT_TRUE(map.ok()) << map.error().message;
         for (std::size_t i = 0; i < image.texels.size(); ++i)
-            EXPECT_NEAR(map->image.texels[i], image.texels[i], name[2] == 'p' ? 0.5 / 65535 + 1e-7 : 0.0) << name;
+            EXPECT_NEAR(map->image.texels[i], image.texels[i], name[2] == 'p' ? 0.5 / 65535 + 1e-7 : 0.0)
+                << name;
     }
 }
 
@@ -329,11 +348,16 @@ class DamageTest : public HeightMapTest {
         std::vector<Bytes> files{png_of_rows(8, 8, 16, 0, std::vector<Bytes>(8, Bytes(16, 77)))};
         const std::vector<float> values = ramp(24 * 24 * 3);
         write("a.jpg", {24, 24, 3, OIIO::TypeDesc::UINT8}, values);
-        write("b.tif", {24, 24, 3, OIIO::TypeDesc::UINT16}, values, [](OIIO::ImageSpec& s) { s.attribute("compression", "lzw"); });
-        write("c.tif", {24, 24, 1, OIIO::TypeDesc::FLOAT}, values, [](OIIO::ImageSpec& s) { s.tile_width = s.tile_height = 16; });
-        write("d.exr", {24, 24, 3, OIIO::TypeDesc::HALF}, values, [](OIIO::ImageSpec& s) { s.attribute("compression", "piz"); });
-        write("e.exr", {24, 24, 1, OIIO::TypeDesc::FLOAT}, values, [](OIIO::ImageSpec& s) { s.tile_width = s.tile_height = 16; });
-        for (const char* name : {"a.jpg", "b.tif", "c.tif", "d.exr", "e.exr"}) files.push_back(*read_file(folder_.file(name), 1 << 20));
+        write("b.tif", {24, 24, 3, OIIO::TypeDesc::UINT16}, values,
+              [](OIIO::ImageSpec& s) { s.attribute("compression", "lzw"); });
+        write("c.tif", {24, 24, 1, OIIO::TypeDesc::FLOAT}, values,
+              [](OIIO::ImageSpec& s) { s.tile_width = s.tile_height = 16; });
+        write("d.exr", {24, 24, 3, OIIO::TypeDesc::HALF}, values,
+              [](OIIO::ImageSpec& s) { s.attribute("compression", "piz"); });
+        write("e.exr", {24, 24, 1, OIIO::TypeDesc::FLOAT}, values,
+              [](OIIO::ImageSpec& s) { s.tile_width = s.tile_height = 16; });
+        for (const char* name : {"a.jpg", "b.tif", "c.tif", "d.exr", "e.exr"})
+            files.push_back(*read_file(folder_.file(name), 1 << 20));
         return files;
     }
 
@@ -367,7 +391,8 @@ TEST_F(DamageTest, FlippedBytesNeverCrash) {
             Bytes bytes = seed;
             // Headers decide most; half of the damage goes there.
             for (unsigned k = 1 + random() % 4; k > 0; --k) {
-                const std::size_t range = random() % 2 == 0 ? std::min<std::size_t>(bytes.size(), 400) : bytes.size();
+                const std::size_t range =
+                    random() % 2 == 0 ? std::min<std::size_t>(bytes.size(), 400) : bytes.size();
                 const std::uint8_t values[] = {0, 0xff, 0x7f, 0x80, static_cast<std::uint8_t>(random())};
                 bytes[random() % range] = values[random() % 5];
             }

@@ -33,7 +33,8 @@ std::vector<std::uint8_t> decoded(const std::string& path, int& channels) {
     auto input = OIIO::ImageInput::open(path, &config);
     if (input == nullptr) return {};
     channels = input->spec().nchannels;
-    std::vector<std::uint8_t> raw(static_cast<std::size_t>(input->spec().image_pixels()) * static_cast<std::size_t>(channels));
+    std::vector<std::uint8_t> raw(static_cast<std::size_t>(input->spec().image_pixels()) *
+                                  static_cast<std::size_t>(channels));
     input->read_image(OIIO::TypeDesc::UINT8, raw.data());
     std::vector<std::uint8_t> texels;
     const auto n = static_cast<std::size_t>(channels);
@@ -103,7 +104,8 @@ TEST(ImageIo, WrittenHeightsHaveNoDate) {
         const auto a = read_file(folder.file(std::string("a") + suffix), 1 << 20);
         EXPECT_EQ(*a, *read_file(folder.file(std::string("b") + suffix), 1 << 20)) << suffix;
         const std::string text(a->begin(), a->end());
-        for (const char* word : {"OpenImageIO", "DateTime", "capDate", ":202"}) EXPECT_EQ(text.find(word), std::string::npos) << suffix << word;
+        for (const char* word : {"OpenImageIO", "DateTime", "capDate", ":202"})
+            EXPECT_EQ(text.find(word), std::string::npos) << suffix << word;
     }
 }
 

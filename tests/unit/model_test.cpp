@@ -91,7 +91,8 @@ TEST(Model, PlaneLiesFlatWithUvFromCornerToCorner) {
     }
     // Counter-clockwise from above: the edges' cross product points up.
     for (std::size_t t = 0; t < 6; t += 3) {
-        const float *a = &p.positions[3 * p.indices[t]], *b = &p.positions[3 * p.indices[t + 1]], *c = &p.positions[3 * p.indices[t + 2]];
+        const float *a = &p.positions[3 * p.indices[t]], *b = &p.positions[3 * p.indices[t + 1]],
+                    *c = &p.positions[3 * p.indices[t + 2]];
         EXPECT_GT((b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]), 0.0f);
     }
     const auto target = find_material(make_plane({2.0, 3.0}));
@@ -101,8 +102,9 @@ TEST(Model, PlaneLiesFlatWithUvFromCornerToCorner) {
 }
 
 TEST(Model, ObjQuadWithNegativeIndicesAndWindowsLines) {
-    const auto model = read_text("# plate\r\nv 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nvt 0 0\r\nvt 1 0\r\nvt 1 1\r\nvt 0 1\r\n"
-                                 "usemtl my steel \r\nf -4/-4 -3/-3 -2/-2 -1/-1\r\n");
+    const auto model = read_text(
+        "# plate\r\nv 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nvt 0 0\r\nvt 1 0\r\nvt 1 1\r\nvt 0 1\r\n"
+        "usemtl my steel \r\nf -4/-4 -3/-3 -2/-2 -1/-1\r\n");
     ASSERT_TRUE(model.ok()) << model.error().message;
     const auto target = find_material(*model);
     ASSERT_TRUE(target.ok()) << target.error().message;
@@ -114,20 +116,23 @@ TEST(Model, ObjQuadWithNegativeIndicesAndWindowsLines) {
     for (std::size_t v = 0; v < p.positions.size() / 3; ++v) {
         EXPECT_EQ(p.uvs[2 * v], p.positions[3 * v]);
         EXPECT_EQ(p.uvs[2 * v + 1], 1.0f - p.positions[3 * v + 1]);  // v turned downwards
-        EXPECT_EQ(p.normals[3 * v + 2], 1.0f);                        // computed from the face
+        EXPECT_EQ(p.normals[3 * v + 2], 1.0f);                       // computed from the face
     }
 }
 
 TEST(Model, ObjPolygonsKeepTheirArea) {
     // An arrow with a notch: a fan would cover the notch. Area 2 * 2 - 1.
-    const auto model = read_text("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt .5 .5\nvt 0 1\nf 1/1 2/2 3/3 4/4 5/5\n");
+    const auto model = read_text(
+        "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 2 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt .5 .5\nvt 0 1\nf 1/1 2/2 "
+        "3/3 4/4 5/5\n");
     ASSERT_TRUE(model.ok()) << model.error().message;
     const auto asset = asset_of(*model);
     ASSERT_TRUE(asset.ok());
     const Primitive& p = asset->primitives[0];
     double area = 0.0;
     for (std::size_t t = 0; t < p.indices.size(); t += 3) {
-        const float *a = &p.positions[3 * p.indices[t]], *b = &p.positions[3 * p.indices[t + 1]], *c = &p.positions[3 * p.indices[t + 2]];
+        const float *a = &p.positions[3 * p.indices[t]], *b = &p.positions[3 * p.indices[t + 1]],
+                    *c = &p.positions[3 * p.indices[t + 2]];
         const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         EXPECT_GT(twice, 0.0);
         area += twice / 2;
@@ -181,7 +186,8 @@ TEST(Model, MaterialsAreChosenByNameOrListed) {
     EXPECT_EQ(find_material(*model, {.material = "glass"})->index, 1u);
     EXPECT_FALSE(find_material(*model, {.material = "unused"}).ok());
     EXPECT_FALSE(find_material(*model, {.material = "glass", .tex_coord = 1}).ok());
-    EXPECT_EQ(find_material(*model, {.material = "glass", .tex_coord = 9}).error().code, ErrorCode::invalid_argument);
+    EXPECT_EQ(find_material(*model, {.material = "glass", .tex_coord = 9}).error().code,
+              ErrorCode::invalid_argument);
 }
 
 // One change to the good document, and the words that must be in the message.
@@ -196,7 +202,10 @@ TEST(Model, EveryReferenceIsChecked) {
     const Damage damages[] = {
         {"/asset/version", "1.0", "version 1.0", ErrorCode::unsupported},
         {"/asset", 5, "asset"},
-        {"/extensionsRequired", {"KHR_draco_mesh_compression"}, "KHR_draco_mesh_compression", ErrorCode::unsupported},
+        {"/extensionsRequired",
+         {"KHR_draco_mesh_compression"},
+         "KHR_draco_mesh_compression",
+         ErrorCode::unsupported},
         {"/extensionsRequired", {"VENDOR_unheard_of"}, "VENDOR_unheard_of", ErrorCode::unsupported},
         {"/extensionsUsed", 7, "extensionsUsed"},
         {"/extensions", {{"X_y", 1}}, "X_y"},
@@ -235,7 +244,10 @@ TEST(Model, EveryReferenceIsChecked) {
         {"/bufferViews/0/byteStride", 8, "byteStride 8"},
         {"/bufferViews/0/byteStride", 14, "byteStride"},
         {"/bufferViews/0/byteStride", 256, "byteStride"},
-        {"/bufferViews/0/extensions", {{"EXT_meshopt_compression", Json::object()}}, "EXT_meshopt_compression", ErrorCode::unsupported},
+        {"/bufferViews/0/extensions",
+         {{"EXT_meshopt_compression", Json::object()}},
+         "EXT_meshopt_compression",
+         ErrorCode::unsupported},
         {"/buffers/0/byteLength", 70, "byteLength is 70"},
         {"/buffers/0/byteLength", 0, "byteLength"},
         {"/buffers/0/uri", "data:application/octet-stream;base64,AA!A", "base64"},
@@ -258,7 +270,8 @@ TEST(Model, EveryReferenceIsChecked) {
 
 TEST(Model, SparseAccessorsAreCheckedAndApplied) {
     Json document = triangle();
-    // The second position is replaced by the third uv pair and its neighbour's first number: values of view 1.
+    // The second position is replaced by the third uv pair and its neighbour's first number: values of
+    // view 1.
     document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 62}, {"byteLength", 2}});
     document["accessors"][0]["sparse"] = {{"count", 1},
                                           {"indices", {{"bufferView", 3}, {"componentType", 5123}}},
@@ -296,10 +309,12 @@ TEST(Model, IndicesBeyondTheVerticesAreRefused) {
 }
 
 TEST(Model, DeepOrDamagedJsonIsRefused) {
-    expect_error(read_text("{\"a\":" + std::string(100000, '[') + std::string(100000, ']') + "}"), ErrorCode::limit_exceeded, "levels");
+    expect_error(read_text("{\"a\":" + std::string(100000, '[') + std::string(100000, ']') + "}"),
+                 ErrorCode::limit_exceeded, "levels");
     expect_error(read_text("{\"a\":\n\n tru}"), ErrorCode::invalid_input, "line 3");
     expect_error(read_text("{\"asset\":{\"version\":\"2.0\",\"x\":1e999}}"), ErrorCode::invalid_input, "");
-    expect_error(read_text("{\"asset\":{\"version\":\"2.0\",\"x\":\"\xff\"}}"), ErrorCode::invalid_input, "JSON");
+    expect_error(read_text("{\"asset\":{\"version\":\"2.0\",\"x\":\"\xff\"}}"), ErrorCode::invalid_input,
+                 "JSON");
     expect_error(read_text("{"), ErrorCode::invalid_input, "JSON");
 }
 
@@ -316,8 +331,9 @@ TEST(Model, NodesThatAreSharedOrReachedTwiceAreRefused) {
 
 TEST(Model, TransformsReachTheVertices) {
     Json document = triangle();
-    document["nodes"] = {{{"children", {1}}, {"translation", {10, 0, 0}}},
-                         {{"mesh", 0}, {"scale", {-2, 1, 1}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}}};
+    document["nodes"] = {
+        {{"children", {1}}, {"translation", {10, 0, 0}}},
+        {{"mesh", 0}, {"scale", {-2, 1, 1}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}}};
     const auto model = read_text(document.dump());
     ASSERT_TRUE(model.ok()) << model.error().message;
     const auto asset = asset_of(*model);
@@ -333,7 +349,8 @@ TEST(Model, TransformsReachTheVertices) {
 }
 
 TEST(Model, StripsAndFansAreUnrolled) {
-    for (const auto& [mode, expected] : {std::pair{5, std::vector<std::uint32_t>{0, 1, 2}}, {6, {0, 1, 2}}, {0, {}}, {1, {}}}) {
+    for (const auto& [mode, expected] :
+         {std::pair{5, std::vector<std::uint32_t>{0, 1, 2}}, {6, {0, 1, 2}}, {0, {}}, {1, {}}}) {
         Json document = triangle();
         document["meshes"][0]["primitives"][0]["mode"] = mode;
         const auto asset = read_asset(bytes_of(document.dump()));
@@ -377,10 +394,12 @@ TEST_F(ModelFiles, UrisNeverLeaveTheFolder) {
     put("in/x", "");
     std::filesystem::create_symlink(folder_.file("outside.bin"), folder_.file("in/link.bin"));
     std::filesystem::create_directory_symlink(folder_.path(), folder_.file("in/dir"));
-    for (const std::string& uri : {std::string("../outside.bin"), std::string("sub/../../outside.bin"), std::string("%2e%2e/outside.bin"),
-                                   folder_.file("outside.bin"), "file://" + folder_.file("outside.bin"),
-                                   std::string("http://localhost/outside.bin"), std::string("..\\outside.bin"), std::string("link.bin"),
-                                   std::string("dir/outside.bin"), std::string("a%00b"), std::string("a%zz")}) {
+    for (const std::string& uri :
+         {std::string("../outside.bin"), std::string("sub/../../outside.bin"),
+          std::string("%2e%2e/outside.bin"), folder_.file("outside.bin"),
+          "file://" + folder_.file("outside.bin"), std::string("http://localhost/outside.bin"),
+          std::string("..\\outside.bin"), std::string("link.bin"), std::string("dir/outside.bin"),
+          std::string("a%00b"), std::string("a%zz")}) {
         const auto model = with_uri(uri);
         EXPECT_FALSE(model.ok()) << uri;
     }
@@ -394,13 +413,15 @@ TEST_F(ModelFiles, RandomDamageNeverCrashes) {
     ASSERT_TRUE(glb.ok());
     const std::vector<std::vector<std::uint8_t>> seeds{
         *glb, bytes_of(triangle().dump()),
-        bytes_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/1/1 4/2/1\nf 1//1 2//1 3//1\n")};
+        bytes_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 "
+                 "3/1/1 4/2/1\nf 1//1 2//1 3//1\n")};
     for (int trial = 0; trial < 6000; ++trial) {
         std::vector<std::uint8_t> bytes = seeds[static_cast<std::size_t>(trial) % seeds.size()];
         for (unsigned k = 1 + random() % 3; k > 0; --k) {
             static constexpr char kLikely[] = "0123456789-.[]{},:\"eE/ \n";
-            bytes[random() % bytes.size()] = random() % 3 == 0 ? static_cast<std::uint8_t>(random())
-                                                               : static_cast<std::uint8_t>(kLikely[random() % (sizeof kLikely - 1)]);
+            bytes[random() % bytes.size()] =
+                random() % 3 == 0 ? static_cast<std::uint8_t>(random())
+                                  : static_cast<std::uint8_t>(kLikely[random() % (sizeof kLikely - 1)]);
         }
         if (random() % 8 == 0) bytes.resize(random() % bytes.size());
         const auto model = read_model_bytes(bytes, "");

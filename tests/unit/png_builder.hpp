@@ -1,4 +1,5 @@
-// PNG files of every kind, made by the test's own few lines, so that reading is not judged by burin's own writer.
+// PNG files of every kind, made by the test's own few lines, so that reading is not judged by burin's own
+// writer.
 #pragma once
 
 #include <zlib.h>
@@ -47,8 +48,8 @@ inline Bytes png_file(const std::vector<Bytes>& chunks) {
 }
 
 // `rows` hold the packed samples of each row, without filter bytes.
-inline Bytes png_of_rows(std::uint32_t w, std::uint32_t h, int depth, int color, const std::vector<Bytes>& rows,
-                         const Bytes& palette = {}) {
+inline Bytes png_of_rows(std::uint32_t w, std::uint32_t h, int depth, int color,
+                         const std::vector<Bytes>& rows, const Bytes& palette = {}) {
     Bytes raw;
     for (const Bytes& row : rows) {
         raw.push_back(0);

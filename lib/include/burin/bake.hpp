@@ -1,7 +1,8 @@
-// Stage bake: the fallback that a viewer without burin's shader shows. A tangent-space normal map and an occlusion map
-// are baked from the height map itself, so that what the paths leave out is still there.
+// Stage bake: the fallback that a viewer without burin's shader shows. A tangent-space normal map and an
+// occlusion map are baked from the height map itself, so that what the paths leave out is still there.
 //
-//     heights --[bake_fallback]--> Fallback --[write_glb]--> normalTexture, occlusionTexture of the core material
+//     heights --[bake_fallback]--> Fallback --[write_glb]--> normalTexture, occlusionTexture of the core
+//     material
 //
 // Convention of glTF 2.0: red +x along u, green +y against v (up in the picture), blue out of the surface;
 // code = round((n + 1) / 2 * 255); linear.
@@ -15,15 +16,15 @@ namespace burin {
 
 struct FallbackOptions {
     int max_side = 256;  // longer side of the normal map, texels, [1, 4096]
-    // A smaller normal map is taken while its normals, interpolated, stay within this RMS angle of the largest one's,
-    // degrees, [0, 90].
+    // A smaller normal map is taken while its normals, interpolated, stay within this RMS angle of the
+    // largest one's, degrees, [0, 90].
     double normal_tolerance = 2.0;
     bool occlusion = true;  // the occlusion map has at most half the side of the normal map
 };
 
 struct Fallback {
-    RgbaImage normal;     // empty (width 0): nothing to show, no texture is written
-    RgbaImage occlusion;  // grey; red counts, as in glTF; empty: no texture is written
+    RgbaImage normal;           // empty (width 0): nothing to show, no texture is written
+    RgbaImage occlusion;        // grey; red counts, as in glTF; empty: no texture is written
     double normal_error = 0.0;  // RMS angle to the largest size considered, degrees
 };
 

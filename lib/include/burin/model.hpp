@@ -1,18 +1,18 @@
 // The surface that a pattern is put on, and reading of finished assets.
 //
-//     .gltf .glb .obj --[read_model]--> Model --[write_glb + textures + extension + fallback]--> bytes of OUT.glb
-//     bytes of OUT.glb --[read_asset]--> Asset --> render, check, info
+//     .gltf .glb .obj --[read_model]--> Model --[write_glb + textures + extension + fallback]--> bytes of
+//     OUT.glb bytes of OUT.glb --[read_asset]--> Asset --> render, check, info
 //
-// A Model keeps the whole glTF document as it was read, so that the output loses nothing of the input: nodes, names,
-// cameras, animations, extras and extensions that burin does not know pass through. Buffers and images kept in other
-// files are gathered into the one binary chunk of the output.
+// A Model keeps the whole glTF document as it was read, so that the output loses nothing of the input: nodes,
+// names, cameras, animations, extras and extensions that burin does not know pass through. Buffers and images
+// kept in other files are gathered into the one binary chunk of the output.
 //
-// Input is not trusted: every index, view, accessor, stride and URI is checked before use; a URI may neither leave the
-// folder of the file nor name a scheme other than `data`; what the document calls required and burin does not know
-// (compression, for instance) is refused by name.
+// Input is not trusted: every index, view, accessor, stride and URI is checked before use; a URI may neither
+// leave the folder of the file nor name a scheme other than `data`; what the document calls required and
+// burin does not know (compression, for instance) is refused by name.
 //
-// Conventions are those of glTF 2.0: right-handed, y up, metres, v down, front faces counter-clockwise. OBJ files have
-// v up and are turned over on reading.
+// Conventions are those of glTF 2.0: right-handed, y up, metres, v down, front faces counter-clockwise. OBJ
+// files have v up and are turned over on reading.
 #pragma once
 
 #include <cstddef>
@@ -31,9 +31,9 @@
 namespace burin {
 
 // Limits of reading, each named in the message when it is exceeded.
-inline constexpr std::uint64_t kMaxModelFileBytes = 1ull << 30;       // any one file of a model
-inline constexpr std::uint64_t kMaxModelBytes = 2ull << 30;           // all buffers and images together
-inline constexpr std::uint64_t kMaxModelVertices = 1ull << 26;        // after instancing by nodes
+inline constexpr std::uint64_t kMaxModelFileBytes = 1ull << 30;  // any one file of a model
+inline constexpr std::uint64_t kMaxModelBytes = 2ull << 30;      // all buffers and images together
+inline constexpr std::uint64_t kMaxModelVertices = 1ull << 26;   // after instancing by nodes
 inline constexpr std::uint64_t kMaxModelIndices = 3ull << 26;
 inline constexpr int kMaxModelJsonDepth = 128;
 
@@ -49,66 +49,66 @@ class Model {
     std::shared_ptr<const ModelData> data_;
 };
 
-// Reads .gltf (buffers and images embedded or beside it), .glb and .obj; the content decides between glTF and glb, and
-// text that is not JSON is read as OBJ. OBJ: v, vt, vn, f (polygons are triangulated by ear clipping, negative indices
-// count from the end), usemtl becomes the name of a material; groups, smoothing, lines, free-form curves and mtllib
-// are passed over. Normals that an OBJ lacks are computed from its faces.
-// Fails with io_failed, invalid_input (what, where, which value), unsupported (a required extension, named; a glTF
-// version other than 2), limit_exceeded.
-// Cost: linear in the file's size.
+// Reads .gltf (buffers and images embedded or beside it), .glb and .obj; the content decides between glTF and
+// glb, and text that is not JSON is read as OBJ. OBJ: v, vt, vn, f (polygons are triangulated by ear
+// clipping, negative indices count from the end), usemtl becomes the name of a material; groups, smoothing,
+// lines, free-form curves and mtllib are passed over. Normals that an OBJ lacks are computed from its faces.
+// Fails with io_failed, invalid_input (what, where, which value), unsupported (a required extension, named; a
+// glTF version other than 2), limit_exceeded. Cost: linear in the file's size.
 Result<Model> read_model(const std::string& path);
 
 // The same for bytes in memory; `base_folder` is where relative URIs start (empty: none are allowed).
 Result<Model> read_model_bytes(std::span<const std::uint8_t> bytes, const std::string& base_folder);
 
-// A rectangle of two triangles in the plane y = 0 with the normal +y, centred on the origin, size.x metres along +x
-// (u) and size.y metres along +z (v); positions, normals, tangents, one uv set over [0, 1]; one material named "plane".
-// Requires: both sides > 0 and finite.
+// A rectangle of two triangles in the plane y = 0 with the normal +y, centred on the origin, size.x metres
+// along +x (u) and size.y metres along +z (v); positions, normals, tangents, one uv set over [0, 1]; one
+// material named "plane". Requires: both sides > 0 and finite.
 Model make_plane(Vec2 size);
 
 struct AttachOptions {
-    // Name; empty: the only material that a triangle primitive uses. Triangles without a material count as one named
-    // "default", which is made when the pattern goes onto it.
+    // Name; empty: the only material that a triangle primitive uses. Triangles without a material count as
+    // one named "default", which is made when the pattern goes onto it.
     std::string material;
-    int tex_coord = 0;     // which uv set the pattern lies in, [0, 7]
+    int tex_coord = 0;  // which uv set the pattern lies in, [0, 7]
 };
 
 // Where a pattern would go: to be asked before a long conversion.
 struct MaterialTarget {
     std::size_t index = 0;  // in the document; one past its materials for a "default" that will be made
     std::string name;
-    // Mean length in metres of one uv unit along u and along v, over the material's triangles, by area, at the scale
-    // in which the default scene shows them: the natural `size` of a pattern that covers uv 0 to 1.
+    // Mean length in metres of one uv unit along u and along v, over the material's triangles, by area, at
+    // the scale in which the default scene shows them: the natural `size` of a pattern that covers uv 0 to 1.
     Vec2 metres_per_uv{1.0, 1.0};
     std::size_t triangles = 0;
     bool replaces_normal_texture = false;  // the material has one of its own; see write_glb
     bool keeps_occlusion_texture = false;  // the material has one of its own, which stays
 };
 
-// Fails with invalid_input: no material of that name, several materials and no name (the message lists the names), a
-// primitive of the material without the uv set or whose uv has no area.
+// Fails with invalid_input: no material of that name, several materials and no name (the message lists the
+// names), a primitive of the material without the uv set or whose uv has no area.
 Result<MaterialTarget> find_material(const Model& model, const AttachOptions& options = {});
 
 // The document with the pattern on one material, as binary glTF 2.0 that stands alone.
 // Adds: two bufferViews with the textures (32-bit little-endian words, row-major), the extension
-// BURIN_materials_path_detail on the material (listed in extensionsUsed only), and the fallback as PNG in the core
-// material: normalTexture, and occlusionTexture unless the material has one.
-// A normalTexture that the material had gives way to the fallback, which every viewer understands; what it was is kept
-// under the material's extras as "burin_replaced_normal_texture", its texture and image stay in the file.
-// A pattern that the material already carries is replaced.
-// `detail` is taken as given, but its buffer views are set here.
-// Fails as find_material does, and with limit_exceeded when the result passes 4 GiB. Equal input gives equal bytes.
+// BURIN_materials_path_detail on the material (listed in extensionsUsed only), and the fallback as PNG in the
+// core material: normalTexture, and occlusionTexture unless the material has one. A normalTexture that the
+// material had gives way to the fallback, which every viewer understands; what it was is kept under the
+// material's extras as "burin_replaced_normal_texture", its texture and image stay in the file. A pattern
+// that the material already carries is replaced. `detail` is taken as given, but its buffer views are set
+// here. Fails as find_material does, and with limit_exceeded when the result passes 4 GiB. Equal input gives
+// equal bytes.
 Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedTextures& textures,
                                             const PathDetail& detail, const Fallback& fallback,
                                             const AttachOptions& options = {});
 
-// Triangles of one material, as the default scene shows them: node transforms applied, one entry for each node and
-// primitive. Points and lines are left out; strips and fans are unrolled.
+// Triangles of one material, as the default scene shows them: node transforms applied, one entry for each
+// node and primitive. Points and lines are left out; strips and fans are unrolled.
 struct Primitive {
     std::vector<float> positions;  // three per vertex, metres, world space
-    std::vector<float> normals;    // three per vertex, unit length; computed from the faces where the file has none
-    std::vector<float> uvs;        // two per vertex, of the uv set of the material's pattern (set 0 without one); zero
-                                   // where the file has none
+    std::vector<float>
+        normals;             // three per vertex, unit length; computed from the faces where the file has none
+    std::vector<float> uvs;  // two per vertex, of the uv set of the material's pattern (set 0 without one);
+                             // zero where the file has none
     std::vector<std::uint32_t> indices;  // three per triangle, each below the vertex count
     int material = 0;                    // index into Asset::materials
 };
@@ -126,12 +126,13 @@ struct MaterialInfo {
 
 struct Asset {
     std::vector<Primitive> primitives;
-    std::vector<MaterialInfo> materials;  // those of the document; then glTF's default, when a primitive has none
+    std::vector<MaterialInfo>
+        materials;  // those of the document; then glTF's default, when a primitive has none
 };
 
-// Reads glTF or glb. The textures are checked for what reading needs: views, sizes, section lengths; whether their
-// content keeps every rule of the format is validate_glb's business, and unpack_textures is safe on any content.
-// Fails as read_model does, and with invalid_input when an extension object does not parse.
+// Reads glTF or glb. The textures are checked for what reading needs: views, sizes, section lengths; whether
+// their content keeps every rule of the format is validate_glb's business, and unpack_textures is safe on any
+// content. Fails as read_model does, and with invalid_input when an extension object does not parse.
 Result<Asset> read_asset(std::span<const std::uint8_t> bytes, const std::string& base_folder = {});
 
 }  // namespace burin
