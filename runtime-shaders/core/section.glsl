@@ -81,23 +81,60 @@ bool burin_passes_left(BurinElement e, BurinStyle style, BurinPiece piece, Burin
     return d.x * (point.y - q.y) - d.y * (point.x - q.x) > 0.0f;
 }
 
-BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
-                         bool straight, vec2 add_range, float cut_from) {
+BurinEvents burin_no_events() {
     BurinEvents found;
     found.add = 1.0e30f;
-    found.cut = 1.0e30f;
     found.add_facet = BURIN_FACET_WALL;
-    found.cut_facet = BURIN_FACET_WALL;
     found.add_enters = false;
-    found.cut_leaves = false;
-    found.cut_once = true;
     found.add_tied = false;
-    found.cut_tied = false;
     found.add_odd = false;
-    found.cut_odd = false;
-    float same = BURIN_SAME_DROP * burin_map.depth;
     found.add_at_end = false;
+    found.cut = 1.0e30f;
+    found.cut_facet = BURIN_FACET_WALL;
+    found.cut_leaves = false;
+    found.cut_tied = false;
+    found.cut_odd = false;
+    found.cut_once = true;
     found.cut_at_end = false;
+    return found;
+}
+
+// Notes a crossing of the add's border at drop t.
+void burin_note_add(float t, int facet, bool inwards, BURIN_INOUT(BurinEvents) found) {
+    float same = BURIN_SAME_DROP * burin_map.depth;
+    found.add_odd = !found.add_odd;
+    found.add_tied = abs(t - found.add) < same || (found.add_tied && t > found.add);
+    if (t >= found.add) return;
+    found.add = t;
+    found.add_facet = facet;
+    found.add_enters = inwards;
+}
+
+// The same for the cut's border.
+void burin_note_cut(float t, int facet, bool inwards, BURIN_INOUT(BurinEvents) found) {
+    float same = BURIN_SAME_DROP * burin_map.depth;
+    found.cut_odd = !found.cut_odd;
+    found.cut_once = found.cut > 1.0e29f;
+    found.cut_tied = abs(t - found.cut) < same || (found.cut_tied && t > found.cut);
+    if (t >= found.cut) return;
+    found.cut = t;
+    found.cut_facet = facet;
+    found.cut_leaves = inwards;
+}
+
+// Whether the facet from a to b stands over or under the offset x, and its height there.
+bool burin_spans(vec2 a, vec2 b, float x) {
+    return (a.x <= x) != (b.x <= x);
+}
+
+float burin_facet_height(vec2 a, vec2 b, float x) {
+    return a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
+}
+
+// The next crossings of a profile's borders: of its add between the drops add_range, of its cut after cut_from.
+BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
+                         bool straight, vec2 add_range, float cut_from) {
+    BurinEvents found = burin_no_events();
     vec2 d = qb - qa;
     // An add ends at the ground; below it the profile says nothing about it.
     vec2 qe = mix(qa, qb, clamp((add_range.y - range.x) / (range.y - range.x), 0.0f, 1.0f));
@@ -112,69 +149,41 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
     bool run_odd = false;
     for (int i = 0; i <= BURIN_MAX_PROFILE_POINTS; ++i) {
         if (i > style.count) break;
-        bool internal = i > 0 && i < style.count && ((style.internal >> (i - 1)) & 1u) != 0u;
+        bool facet = i > 0 && i < style.count;
+        bool internal = facet && ((style.internal >> (i - 1)) & 1u) != 0u;
         if (i % BURIN_POINTS_PER_TEXEL == 0 && i < style.count) texel = burin_point_texel(style, i);
         vec2 point = i < style.count ? burin_point(texel, i) : last;
-        // A facet that lies beside the stretch, with its ends on one side, says nothing about it.
-        if (i > 0 && i < style.count && (max(point.x, last.x) < b_low || min(point.x, last.x) > b_high)) {
-            if (last_internal && !internal) {
-                found.cut_at_end = found.cut_at_end || run_odd;
-                run_odd = false;
-            }
-            last = point;
-            last_known = false;
-            last_internal = internal;
-            continue;
-        }
-        if (!last_known && i > 0) last_left = burin_passes_left(e, style, piece, ray, range, qa, d, last, straight);
-        last_known = true;
-        bool left = last_left;
-        if (i < style.count) left = burin_passes_left(e, style, piece, ray, range, qa, d, point, straight);
-        vec2 edge = point - last;
-        bool facet = i > 0 && i < style.count;
-        if (facet && (last.x <= qe.x) != (point.x <= qe.x)) {
-            if (last.y + edge.y * ((qe.x - last.x) / edge.x) > qe.y + BURIN_FILM) found.add_at_end = !found.add_at_end;
-        }
-        if (internal && (last.x <= qb.x) != (point.x <= qb.x)) {
-            if (last.y + edge.y * ((qb.x - last.x) / edge.x) <= qb.y) run_odd = !run_odd;
-        }
+        if (internal && burin_spans(last, point, qb.x) && burin_facet_height(last, point, qb.x) <= qb.y) run_odd = !run_odd;
         if (last_internal && !internal) {
             found.cut_at_end = found.cut_at_end || run_odd;
             run_odd = false;
         }
+        // A facet whose ends lie beside the stretch, on one side of it, is not crossed.
+        bool beside = facet && (max(point.x, last.x) < b_low || min(point.x, last.x) > b_high);
+        bool left = last_left;
+        if (!beside) {
+            if (!last_known && i > 0) last_left = burin_passes_left(e, style, piece, ray, range, qa, d, last, straight);
+            left = last_left;
+            if (i < style.count) left = burin_passes_left(e, style, piece, ray, range, qa, d, point, straight);
+            if (facet && burin_spans(last, point, qe.x) && burin_facet_height(last, point, qe.x) > qe.y + BURIN_FILM)
+                found.add_at_end = !found.add_at_end;
+        }
         // The facet itself, and the vertical ray over the point where a run of cutting facets begins or ends.
         bool above = (d.x > 0.0f) != last_left;
-        int edges = internal != last_internal ? 2 : 1;
+        int edges = beside ? 0 : (internal != last_internal ? 2 : 1);
         for (int k = facet ? 0 : 1; k < edges; ++k) {
-            vec2 across = k == 0 ? vec2(-edge.y, edge.x) : vec2(internal ? 1.0f : -1.0f, 0.0f);
-            bool straddles = k == 0 ? left != last_left : above;
+            vec2 across = k == 0 ? vec2(last.y - point.y, point.x - last.x) : vec2(internal ? 1.0f : -1.0f, 0.0f);
             float fa = dot(qa - last, across);
             float fb = dot(qb - last, across);
-            if (!straddles || (fa > 0.0f) == (fb > 0.0f)) continue;
+            if (!(k == 0 ? left != last_left : above) || (fa > 0.0f) == (fb > 0.0f)) continue;
             float t = burin_crossing(e, style, piece, ray, range, vec2(fa, fb), last, across, straight);
-            bool inwards = fa > 0.0f;
-            if (k == 0 && t > add_range.x && t < add_range.y) {
-                found.add_odd = !found.add_odd;
-                found.add_tied = abs(t - found.add) < same || (found.add_tied && t > found.add);
-                if (t < found.add) {
-                    found.add = t;
-                    found.add_facet = i - 1;
-                    found.add_enters = inwards;
-                }
-            }
-            if ((k == 1 || internal) && t > cut_from) {
-                found.cut_odd = !found.cut_odd;
-                found.cut_once = found.cut > 1.0e29f;
-                found.cut_tied = abs(t - found.cut) < same || (found.cut_tied && t > found.cut);
-                if (t < found.cut) {
-                    found.cut = t;
-                    found.cut_facet = k == 0 ? i - 1 : BURIN_FACET_WALL;
-                    found.cut_leaves = inwards;
-                }
-            }
+            if (k == 0 && t > add_range.x && t < add_range.y) burin_note_add(t, i - 1, fa > 0.0f, found);
+            if ((k == 1 || internal) && t > cut_from)
+                burin_note_cut(t, k == 0 ? i - 1 : BURIN_FACET_WALL, fa > 0.0f, found);
         }
         last = point;
         last_left = left;
+        last_known = !beside;
         last_internal = internal;
     }
     // Two facets that lie on each other, as in a slot of no width: the crossings are counted instead.

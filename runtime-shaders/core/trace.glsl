@@ -279,21 +279,51 @@ bool burin_trace_outside(BURIN_INOUT(BurinHit) hit, BURIN_INOUT(float) t) {
     return false;
 }
 
-// Follows the ray from drop t0 until it meets the surface or has fallen to t1.
-BurinHit burin_trace(BurinRay start, float t0, float t1) {
+BurinHit burin_start(BurinRay ray, float t1) {
     BurinHit hit;
     hit.met = true;
     hit.t = t1;
-    hit.ray = start;
+    hit.ray = ray;
+    hit.centre = vec2(0.0f, 0.0f);
     hit.mark.element = BURIN_NO_ELEMENT;
     hit.mark.part = BURIN_PART_MAIN;
     hit.mark.side = 0.0f;
     hit.mark.facet = BURIN_FACET_WALL;
     hit.mark.wall = vec2(0.0f, 0.0f);
+    return hit;
+}
+
+ivec2 burin_cell_at(vec2 p) {
+    ivec2 index = ivec2(floor(p / (burin_map.size / vec2(burin_map.cells))));
+    return clamp(index, ivec2(0, 0), burin_map.cells - ivec2(1, 1));
+}
+
+// The cell on the other side of the border that the ray reaches at drop t; in a tiling map the ray moves along.
+ivec2 burin_next_cell(ivec2 index, int skip, int axis, float t, BURIN_INOUT(BurinHit) hit) {
+    ivec2 next = index;
+    if (skip > 0) {
+        vec2 p = hit.ray.origin + hit.ray.slope * t;
+        vec2 cell_size = burin_map.size / vec2(burin_map.cells);
+        next = clamp(ivec2(floor(p / cell_size)), index - ivec2(skip, skip), index + ivec2(skip, skip));
+    }
+    int forward = (axis == 0 ? hit.ray.slope.x : hit.ray.slope.y) > 0.0f ? skip + 1 : -skip - 1;
+    if (axis == 0) next.x = index.x + forward;
+    else next.y = index.y + forward;
+    hit.mark.element = BURIN_NO_ELEMENT;
+    hit.mark.facet = BURIN_FACET_WALL;
+    hit.mark.wall = axis == 0 ? vec2(1.0f, 0.0f) : vec2(0.0f, 1.0f);
+    if (burin_map.repeats == 0) return next;
+    ivec2 tile = ivec2(floor(vec2(next) / vec2(burin_map.cells)));
+    hit.ray.origin = hit.ray.origin - vec2(tile) * burin_map.size;
+    return next - tile * burin_map.cells;
+}
+
+// Follows the ray from drop t0 until it meets the surface or has fallen to t1.
+BurinHit burin_trace(BurinRay start, float t0, float t1) {
+    BurinHit hit = burin_start(start, t1);
     vec2 size = burin_map.size;
-    bool repeats = burin_map.repeats != 0;
-    vec2 cell_size = size / vec2(burin_map.cells);
     vec2 p = start.origin + start.slope * t0;
+    bool repeats = burin_map.repeats != 0;
     if (repeats) {
         vec2 tile = floor(p / size) * size;
         hit.ray.origin = hit.ray.origin - tile;
@@ -301,29 +331,27 @@ BurinHit burin_trace(BurinRay start, float t0, float t1) {
     }
     float t = t0;
     bool outside = !repeats && (p.x < 0.0f || p.y < 0.0f || p.x > size.x || p.y > size.y);
-    ivec2 index = clamp(ivec2(floor(p / cell_size)), ivec2(0, 0), burin_map.cells - ivec2(1, 1));
-    hit.centre = vec2(0.0f, 0.0f);
+    ivec2 index = burin_cell_at(p);
     for (int n = 0; n < BURIN_MAX_CELLS_PER_RAY; ++n) {
         if (outside) {
             if (burin_trace_outside(hit, t)) break;
-            outside = false;
-            p = hit.ray.origin + hit.ray.slope * t;
-            index = clamp(ivec2(floor(p / cell_size)), ivec2(0, 0), burin_map.cells - ivec2(1, 1));
+            index = burin_cell_at(hit.ray.origin + hit.ray.slope * t);
         }
         BurinCell cell = burin_cell(index);
         hit.centre = (vec2(index) + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
         int axis;
+        vec2 cell_size = size / vec2(burin_map.cells);
         vec2 low = vec2(index - ivec2(cell.skip, cell.skip)) * cell_size;
         vec2 high = vec2(index + ivec2(cell.skip + 1, cell.skip + 1)) * cell_size;
         float leave = max(burin_leave(hit.ray, low, high, axis), t);
-        float floor_drop = max(cell.lowest + BURIN_SAME_DROP * burin_map.depth, t);
-        vec2 range = vec2(t, min(min(leave, t1), floor_drop));
-        // Above the highest surface of the cell there is nothing to meet.
-        if (cell.highest > range.x) range.x = min(cell.highest, range.y);
+        float until = min(leave, t1);
+        // Above the cell's highest surface there is nothing to meet; below its lowest one all is solid.
+        float bottom = max(cell.lowest + BURIN_SAME_DROP * burin_map.depth, t);
+        vec2 range = vec2(t, min(until, bottom));
+        range.x = max(range.x, min(cell.highest, range.y));
         if (leave > cell.highest || t1 <= leave) {
             if (burin_trace_cell(cell, range, hit)) return hit;
-            // Below the cell's lowest surface all is solid.
-            if (range.y < min(leave, t1)) {
+            if (range.y < until) {
                 hit.t = range.y;
                 return hit;
             }
@@ -334,26 +362,8 @@ BurinHit burin_trace(BurinRay start, float t0, float t1) {
             return hit;
         }
         t = leave;
-        int forward = (axis == 0 ? hit.ray.slope.x : hit.ray.slope.y) > 0.0f ? cell.skip + 1 : -cell.skip - 1;
-        hit.mark.element = BURIN_NO_ELEMENT;
-        hit.mark.facet = BURIN_FACET_WALL;
-        hit.mark.wall = axis == 0 ? vec2(1.0f, 0.0f) : vec2(0.0f, 1.0f);
-        p = hit.ray.origin + hit.ray.slope * t;
-        ivec2 next = index;
-        if (cell.skip > 0) {
-            next = clamp(ivec2(floor(p / cell_size)), index - ivec2(cell.skip, cell.skip),
-                         index + ivec2(cell.skip, cell.skip));
-        }
-        if (axis == 0) next.x = index.x + forward;
-        else next.y = index.y + forward;
-        index = next;
-        if (repeats) {
-            ivec2 tile = ivec2(floor(vec2(index) / vec2(burin_map.cells)));
-            index = index - tile * burin_map.cells;
-            hit.ray.origin = hit.ray.origin - vec2(tile) * size;
-        } else {
-            outside = index.x < 0 || index.y < 0 || index.x >= burin_map.cells.x || index.y >= burin_map.cells.y;
-        }
+        index = burin_next_cell(index, cell.skip, axis, t, hit);
+        outside = !repeats && (index.x < 0 || index.y < 0 || index.x >= burin_map.cells.x || index.y >= burin_map.cells.y);
     }
     return hit;
 }

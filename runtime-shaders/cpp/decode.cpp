@@ -18,7 +18,8 @@ class Core {
     const PackedTextures* textures = nullptr;
 
     uvec2 fetch_cell(ivec2 index) const {
-        const std::size_t k = 2 * (std::size_t(index.y) * std::size_t(textures->grid_width) + std::size_t(index.x));
+        const std::size_t k =
+            2 * (std::size_t(index.y) * std::size_t(textures->grid_width) + std::size_t(index.x));
         return k + 2 <= textures->grid.size() ? uvec2(textures->grid[k], textures->grid[k + 1]) : uvec2(0);
     }
 

@@ -2,8 +2,8 @@
 //
 //     PackedTextures + PathDetail --[Decoder]--> first point of a ray, height at a point
 //
-// Single precision, as on a GPU. What it answers is what the fragment shader draws, up to rounding; tests hold it
-// against the truth (burin/evaluate.hpp), with which it shares no code.
+// Single precision, as on a GPU. What it answers is what the fragment shader draws, up to rounding; tests
+// hold it against the truth (burin/evaluate.hpp), with which it shares no code.
 //
 // Units: pattern space, metres; z as in pattern.hpp (object surface at base_offset).
 #pragma once
@@ -19,14 +19,16 @@ namespace burin {
 
 inline constexpr std::uint32_t kDecodedGround = 0xffffffffu;  // as element
 inline constexpr int kDecodedGroundFacet = -1;                // as facet: the ground
-inline constexpr int kDecodedWall = -2;                       // as facet: where an element or the ground stops
+inline constexpr int kDecodedWall = -2;  // as facet: where an element or the ground stops
 
 struct DecodedHit {
-    bool met = false;  // false: the ray passed the lowest level without meeting anything, which no valid file does
+    bool met =
+        false;  // false: the ray passed the lowest level without meeting anything, which no valid file does
     double drop = 0.0;  // metres below the object surface
     Vec2 position;      // in the tile that was met: [0, size] when the pattern repeats
     double normal[3] = {0, 0, 1};
-    std::uint32_t element = kDecodedGround;  // texel of the element, counted from the start of the data texture
+    std::uint32_t element =
+        kDecodedGround;  // texel of the element, counted from the start of the data texture
     int facet = kDecodedGroundFacet;
     std::uint32_t material = 0;
 };
@@ -36,10 +38,11 @@ struct DecodedHit {
 // Every member is const and safe to call from several threads.
 class Decoder {
   public:
-    Decoder(const PackedTextures& textures, const PathDetail& detail) : textures_(textures), detail_(detail) {}
+    Decoder(const PackedTextures& textures, const PathDetail& detail)
+        : textures_(textures), detail_(detail) {}
 
-    // The ray that passes the object surface at `origin` and goes `slope` metres over the plane per metre of drop.
-    // Cost: cells passed times elements listed, some microseconds.
+    // The ray that passes the object surface at `origin` and goes `slope` metres over the plane per metre of
+    // drop. Cost: cells passed times elements listed, some microseconds.
     DecodedHit trace(Vec2 origin, Vec2 slope) const;
 
     // Metres above ground level 0, seen from straight above.
@@ -50,10 +53,10 @@ class Decoder {
     const PathDetail& detail_;
 };
 
-// The whole tile from straight above in the map's scale (1 = object surface, 0 = depth below it), each texel the mean
-// of samples x samples points. Requires: width, height, samples >= 1. `threads` 0: as many as the machine has; equal
-// results for any number.
-Image decode_top(const PackedTextures& textures, const PathDetail& detail, int width, int height, int samples = 1,
-                 int threads = 0);
+// The whole tile from straight above in the map's scale (1 = object surface, 0 = depth below it), each texel
+// the mean of samples x samples points. Requires: width, height, samples >= 1. `threads` 0: as many as the
+// machine has; equal results for any number.
+Image decode_top(const PackedTextures& textures, const PathDetail& detail, int width, int height,
+                 int samples = 1, int threads = 0);
 
 }  // namespace burin

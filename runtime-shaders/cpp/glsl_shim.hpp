@@ -1,7 +1,7 @@
 // The words of GLSL that core/*.glsl uses and C++ lacks. Include before the core text, inside no namespace.
 //
-// The core text is included into the body of a class: its functions become members, so that they reach burin_map and
-// the two textures without a global.
+// The core text is included into the body of a class: its functions become members, so that they reach
+// burin_map and the two textures without a global.
 #pragma once
 
 #include <glm/common.hpp>

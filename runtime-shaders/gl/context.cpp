@@ -4,8 +4,8 @@ namespace burin::gl {
 
 Status Context::load(Lookup lookup, void* owner) {
     const char* missing = nullptr;
-#define BURIN_GL_LOAD(type, name)                                                        \
-    functions_.name = reinterpret_cast<PFNGL##type##PROC>(lookup(owner, "gl" #name));    \
+#define BURIN_GL_LOAD(type, name)                                                     \
+    functions_.name = reinterpret_cast<PFNGL##type##PROC>(lookup(owner, "gl" #name)); \
     if (functions_.name == nullptr && missing == nullptr) missing = "gl" #name;
     BURIN_GL_FUNCTIONS(BURIN_GL_LOAD)
 #undef BURIN_GL_LOAD

@@ -1,5 +1,6 @@
-// An OpenGL 3.3 core context without a window, behind one small interface, so that OSMesa and EGL can take each other's
-// place. Neither library is linked: it is loaded when asked for, and its absence is an error with a reason.
+// An OpenGL 3.3 core context without a window, behind one small interface, so that OSMesa and EGL can take
+// each other's place. Neither library is linked: it is loaded when asked for, and its absence is an error
+// with a reason.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
-// EGL without a surface: a GPU where there is one, through the device platform, else Mesa's surfaceless platform.
+// EGL without a surface: a GPU where there is one, through the device platform, else Mesa's surfaceless
+// platform.
 #include <dlfcn.h>
 
 #include <array>
@@ -30,16 +31,21 @@ class EglContext final : public Context {
             if (library_ != nullptr) break;
         }
         if (library_ == nullptr)
-            return Error{ErrorCode::unavailable, "libEGL is not installed (Debian: libegl1), or use the backend osmesa"};
-        if (!load_egl()) return Error{ErrorCode::unavailable, "libEGL is too old: a function of EGL 1.4 is missing"};
+            return Error{ErrorCode::unavailable,
+                         "libEGL is not installed (Debian: libegl1), or use the backend osmesa"};
+        if (!load_egl())
+            return Error{ErrorCode::unavailable, "libEGL is too old: a function of EGL 1.4 is missing"};
         for (EGLDisplay display : displays()) {
             if (open_on(display)) {
-                return load([](void* self, const char* name) {
-                    return reinterpret_cast<void*>(static_cast<EglContext*>(self)->get_(name));
-                }, this);
+                return load(
+                    [](void* self, const char* name) {
+                        return reinterpret_cast<void*>(static_cast<EglContext*>(self)->get_(name));
+                    },
+                    this);
             }
         }
-        return Error{ErrorCode::unavailable, "EGL finds no device with OpenGL 3.3 core, or use the backend osmesa"};
+        return Error{ErrorCode::unavailable,
+                     "EGL finds no device with OpenGL 3.3 core, or use the backend osmesa"};
     }
 
   private:
@@ -67,22 +73,28 @@ class EglContext final : public Context {
         if (platform != nullptr && query != nullptr && query(16, devices.data(), &count) == EGL_TRUE)
             for (EGLint i = 0; i < count; ++i)
                 found.push_back(platform(EGL_PLATFORM_DEVICE_EXT, devices[std::size_t(i)], nullptr));
-        if (platform != nullptr) found.push_back(platform(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+        if (platform != nullptr)
+            found.push_back(platform(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
         found.push_back(get_display_(EGL_DEFAULT_DISPLAY));
         return found;
     }
 
     bool open_on(EGLDisplay display) {
         if (display == EGL_NO_DISPLAY || initialize_(display, nullptr, nullptr) == EGL_FALSE) return false;
-        const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 3, EGL_CONTEXT_MINOR_VERSION_KHR, 3,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+        const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                 EGL_NONE};
+        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
+                                     3,
+                                     EGL_CONTEXT_MINOR_VERSION_KHR,
+                                     3,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
                                      EGL_NONE};
         EGLConfig config = nullptr;
         EGLint count = 0;
         EGLContext context = EGL_NO_CONTEXT;
-        if (bind_api_(EGL_OPENGL_API) == EGL_TRUE && choose_config_(display, wanted, &config, 1, &count) == EGL_TRUE &&
-            count > 0)
+        if (bind_api_(EGL_OPENGL_API) == EGL_TRUE &&
+            choose_config_(display, wanted, &config, 1, &count) == EGL_TRUE && count > 0)
             context = create_context_(display, config, EGL_NO_CONTEXT, attributes);
         if (context != EGL_NO_CONTEXT &&
             make_current_(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE) {

@@ -59,8 +59,9 @@ std::string fragment_text(Stage stage) {
     text += shader_text::layout;
     text += shader_text::types;
     text += shader_text::bindings;
-    for (const char* part : {shader_text::fetch, shader_text::curve, shader_text::domain, shader_text::section,
-                             shader_text::ground, shader_text::trace, shader_text::surface})
+    for (const char* part :
+         {shader_text::fetch, shader_text::curve, shader_text::domain, shader_text::section,
+          shader_text::ground, shader_text::trace, shader_text::surface})
         text += part;
     text += stage == Stage::rays ? shader_text::rays_frag
                                  : (stage == Stage::top ? shader_text::top_frag : shader_text::surface_frag);
@@ -69,7 +70,8 @@ std::string fragment_text(Stage stage) {
 
 Result<Program> Program::build(const Functions& gl, Stage stage) {
     const std::string vertex_text =
-        std::string(kVersion) + (stage == Stage::surface ? shader_text::surface_vert : shader_text::screen_vert);
+        std::string(kVersion) +
+        (stage == Stage::surface ? shader_text::surface_vert : shader_text::screen_vert);
     auto vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
     if (!vertex) return vertex.error();
     auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage));
@@ -105,7 +107,8 @@ DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textur
       grid_width_(textures.grid_width),
       grid_height_(textures.grid_height) {
     names_[0] = make_texture(gl, GL_RG32UI, GL_RG_INTEGER, grid_width_, grid_height_, textures.grid, 2);
-    names_[1] = make_texture(gl, GL_RGBA32UI, GL_RGBA_INTEGER, data_width_, textures.data_height, textures.data, 4);
+    names_[1] =
+        make_texture(gl, GL_RGBA32UI, GL_RGBA_INTEGER, data_width_, textures.data_height, textures.data, 4);
 }
 
 DetailTextures::~DetailTextures() { gl_.DeleteTextures(2, names_); }
@@ -129,8 +132,8 @@ void DetailTextures::bind(const Program& program) const {
     program.set("burin_map.first_list", int(sections_.lists_begin()));
 }
 
-Result<std::unique_ptr<FloatTarget>> FloatTarget::create(const Functions& gl, int width, int height, int colors,
-                                                         bool depth) {
+Result<std::unique_ptr<FloatTarget>> FloatTarget::create(const Functions& gl, int width, int height,
+                                                         int colors, bool depth) {
     std::unique_ptr<FloatTarget> target(new FloatTarget(gl, width, height));
     gl.GenFramebuffers(1, &target->framebuffer_);
     gl.BindFramebuffer(GL_FRAMEBUFFER, target->framebuffer_);
@@ -148,8 +151,8 @@ Result<std::unique_ptr<FloatTarget>> FloatTarget::create(const Functions& gl, in
     }
     gl.DrawBuffers(GLsizei(draw.size()), draw.data());
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || gl.GetError() != GL_NO_ERROR)
-        return Error{ErrorCode::unavailable, "the driver has no float target of " + std::to_string(width) + "x" +
-                                                 std::to_string(height) + " pixels"};
+        return Error{ErrorCode::unavailable, "the driver has no float target of " + std::to_string(width) +
+                                                 "x" + std::to_string(height) + " pixels"};
     return target;
 }
 

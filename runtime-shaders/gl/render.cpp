@@ -99,7 +99,8 @@ double distance_for(const Asset& asset, const View& view, glm::dvec3 target, dou
     for (const Primitive& primitive : asset.primitives) {
         for (std::uint32_t i : primitive.indices) {
             const glm::dvec3 q = vertex(primitive.positions, i) - target;
-            const double sideways = std::max(std::abs(glm::dot(q, top)), std::abs(glm::dot(q, right)) / aspect);
+            const double sideways =
+                std::max(std::abs(glm::dot(q, top)), std::abs(glm::dot(q, right)) / aspect);
             distance = std::max(distance, sideways * 1.03 / tangent - glm::dot(q, view.direction));
         }
     }
@@ -116,7 +117,8 @@ View place_camera(const Asset& asset, const RenderOptions& options) {
     view.direction = -direction_of(camera.azimuth, camera.elevation);
     const double a = glm::radians(camera.azimuth);
     // Straight above, up is away from where the camera would stand in front.
-    view.up = std::abs(camera.elevation) > 89.9 ? glm::dvec3(-std::sin(a), 0.0, -std::cos(a)) : glm::dvec3(0, 1, 0);
+    view.up =
+        std::abs(camera.elevation) > 89.9 ? glm::dvec3(-std::sin(a), 0.0, -std::cos(a)) : glm::dvec3(0, 1, 0);
     const double tangent = std::tan(glm::radians(camera.field_of_view) * 0.5);
     view.half_height = tangent;
     if (camera.eye) {
@@ -144,7 +146,8 @@ glm::mat4 projection(const View& view, const RenderOptions& options, double x, d
     if (options.camera.orthographic)
         clip = glm::ortho(-w, w, -h, h, view.near, view.far);
     else
-        clip = glm::frustum(-w * view.near, w * view.near, -h * view.near, h * view.near, view.near, view.far);
+        clip =
+            glm::frustum(-w * view.near, w * view.near, -h * view.near, h * view.near, view.near, view.far);
     const glm::dvec3 shift(2.0 * x / options.width, 2.0 * y / options.height, 0.0);
     return glm::mat4(glm::translate(glm::dmat4(1.0), shift) * clip * view.to_view);
 }
@@ -152,7 +155,8 @@ glm::mat4 projection(const View& view, const RenderOptions& options, double x, d
 // One primitive as vertex arrays of its own.
 class Mesh {
   public:
-    Mesh(const gl::Functions& gl, const Primitive& primitive) : gl_(gl), count_(GLsizei(primitive.indices.size())) {
+    Mesh(const gl::Functions& gl, const Primitive& primitive)
+        : gl_(gl), count_(GLsizei(primitive.indices.size())) {
         gl_.GenVertexArrays(1, &array_);
         gl_.BindVertexArray(array_);
         gl_.GenBuffers(4, buffers_);
@@ -160,8 +164,8 @@ class Mesh {
         attribute(1, 3, primitive.normals);
         attribute(2, 2, primitive.uvs);
         gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[3]);
-        gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(primitive.indices.size() * 4), primitive.indices.data(),
-                       GL_STATIC_DRAW);
+        gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(primitive.indices.size() * 4),
+                       primitive.indices.data(), GL_STATIC_DRAW);
     }
     Mesh(const Mesh&) = delete;
     Mesh& operator=(const Mesh&) = delete;
@@ -197,10 +201,12 @@ struct Scene {
 
 Scene load_scene(const gl::Functions& gl, const Asset& asset) {
     Scene scene;
-    for (const Primitive& primitive : asset.primitives) scene.meshes.push_back(std::make_unique<Mesh>(gl, primitive));
+    for (const Primitive& primitive : asset.primitives)
+        scene.meshes.push_back(std::make_unique<Mesh>(gl, primitive));
     for (const MaterialInfo& material : asset.materials)
         scene.details.push_back(
-            material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail) : nullptr);
+            material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail)
+                                : nullptr);
     PackedTextures empty;
     empty.grid_width = empty.grid_height = empty.data_width = empty.data_height = 1;
     empty.grid.assign(2, 0);
@@ -227,13 +233,15 @@ void draw_pass(const gl::Functions& gl, const gl::Program& program, const Asset&
         const MaterialInfo& material = asset.materials[index];
         (material.has_detail ? *scene.details[index] : *scene.none).bind(program);
         program.set("has_detail", material.has_detail ? 1 : 0);
-        gl.Uniform4f(program.at("base_color"), material.base_color[0], material.base_color[1], material.base_color[2],
-                     material.base_color[3]);
+        gl.Uniform4f(program.at("base_color"), material.base_color[0], material.base_color[1],
+                     material.base_color[2], material.base_color[3]);
         program.set("metallic", material.metallic);
         program.set("roughness", material.roughness);
         // A mesh seen from behind shows nothing unless its material says so.
-        if (material.double_sided) gl.Disable(GL_CULL_FACE);
-        else gl.Enable(GL_CULL_FACE);
+        if (material.double_sided)
+            gl.Disable(GL_CULL_FACE);
+        else
+            gl.Enable(GL_CULL_FACE);
         scene.meshes[i]->draw();
     }
     gl.Finish();
@@ -251,8 +259,13 @@ std::uint8_t to_srgb(float linear) {
 class Accumulator {
   public:
     Accumulator(int width, int height)
-        : width_(width), height_(height), sum_(count() * 4, 0.0f), low_(count(), 1e9f), high_(count(), -1e9f),
-          samples_(count(), 0.0f), wanted_(count(), 255) {}
+        : width_(width),
+          height_(height),
+          sum_(count() * 4, 0.0f),
+          low_(count(), 1e9f),
+          high_(count(), -1e9f),
+          samples_(count(), 0.0f),
+          wanted_(count(), 255) {}
 
     // Pixels with wanted() == 0 are left alone.
     void add(const std::vector<float>& pixels) {
@@ -267,8 +280,8 @@ class Accumulator {
         }
     }
 
-    // Keeps the pixels whose samples, or whose neighbours' samples, differ by more than half a step of the picture's
-    // 8 bits: an edge that no sample of a pixel caught shows in the one beside it.
+    // Keeps the pixels whose samples, or whose neighbours' samples, differ by more than half a step of the
+    // picture's 8 bits: an edge that no sample of a pixel caught shows in the one beside it.
     void keep_uneven() {
         constexpr float kStep = 1.0f / 255.0f;
         for (int y = 0; y < height_; ++y)
@@ -305,7 +318,8 @@ class Accumulator {
     std::vector<std::uint8_t> wanted_;  // 255 or 0 per pixel, lower row first
 };
 
-// Places of the samples within a pixel, -0.5 to 0.5: a grid of side x side, in an order whose first four spread.
+// Places of the samples within a pixel, -0.5 to 0.5: a grid of side x side, in an order whose first four
+// spread.
 std::vector<Vec2> sample_places(int side) {
     std::vector<Vec2> places;
     for (int k = 0; k < side * side; ++k)
@@ -350,7 +364,8 @@ Status check(const Asset& asset, const RenderOptions& options) {
     if (options.samples < 1 || options.samples > 256)
         return Error{ErrorCode::invalid_argument, "samples per pixel must be 1 to 256"};
     if (!(camera.zoom > 0.0) || !(camera.field_of_view > 0.0) || camera.field_of_view > 120.0)
-        return Error{ErrorCode::invalid_argument, "zoom must be above 0, the angle of view above 0 and at most 120 degrees"};
+        return Error{ErrorCode::invalid_argument,
+                     "zoom must be above 0, the angle of view above 0 and at most 120 degrees"};
     for (const Primitive& primitive : asset.primitives)
         if (!primitive.indices.empty()) return Done{};
     return Error{ErrorCode::invalid_input, "the asset has no triangle to draw"};
@@ -373,8 +388,8 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     set_view(*program, view, options);
     gl.Enable(GL_DEPTH_TEST);
     gl.CullFace(GL_BACK);
-    gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]), to_linear(options.background[2]),
-                  1.0f);
+    gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]),
+                  to_linear(options.background[2]), 1.0f);
     (*target)->bind();
     const std::vector<Vec2> places = sample_places(int(std::ceil(std::sqrt(double(options.samples)) - 1e-9)));
     Accumulator sums(options.width, options.height);

@@ -1,13 +1,14 @@
-// Draws an asset with the fragment shader of this folder, off screen: what a viewer that knows the extension shows.
+// Draws an asset with the fragment shader of this folder, off screen: what a viewer that knows the extension
+// shows.
 //
 //     Asset --[render_asset]--> RgbaImage (sRGB)      Asset --[render_top]--> Image (heights)
 //     PackedTextures + rays --[shade_rays]--> hits    (the tests' way into the shader)
 //
-// World space is glTF's: right-handed, y up, metres. Directions are given as azimuth and elevation in degrees: azimuth
-// 0 is +z (in front of a model, at the lower edge of a plane), 90 is +x; elevation 90 is +y.
-// Shading: metallic-roughness of the glTF material or the pattern's override, one directional light, a soft ambient
-// term. Where a detail is drawn the core normal and occlusion textures are its fallback and are not used.
-// Source: [2010] 5; perspective and shadows 5.6.
+// World space is glTF's: right-handed, y up, metres. Directions are given as azimuth and elevation in
+// degrees: azimuth 0 is +z (in front of a model, at the lower edge of a plane), 90 is +x; elevation 90 is +y.
+// Shading: metallic-roughness of the glTF material or the pattern's override, one directional light, a soft
+// ambient term. Where a detail is drawn the core normal and occlusion textures are its fallback and are not
+// used. Source: [2010] 5; perspective and shadows 5.6.
 #pragma once
 
 #include <array>
@@ -25,13 +26,14 @@
 
 namespace burin {
 
-// OSMesa needs no GPU. EGL takes the first device that opens without a window. Both are loaded when asked for.
+// OSMesa needs no GPU. EGL takes the first device that opens without a window. Both are loaded when asked
+// for.
 enum class Backend { osmesa, egl };
 
 struct Camera {
-    double azimuth = 30.0;    // degrees, where the camera stands around the asset
-    double elevation = 50.0;  // degrees, [-90, 90]; 90 is straight above with u to the right and v down
-    double zoom = 1.0;        // 1 shows all of the asset; > 0
+    double azimuth = 30.0;        // degrees, where the camera stands around the asset
+    double elevation = 50.0;      // degrees, [-90, 90]; 90 is straight above with u to the right and v down
+    double zoom = 1.0;            // 1 shows all of the asset; > 0
     double field_of_view = 30.0;  // degrees, vertical, (0, 120]
     bool orthographic = false;
     // Point of the pattern that the camera looks at, uv; without it the middle of the asset's box.
@@ -53,17 +55,16 @@ struct RenderOptions {
     Camera camera;
     Light light;
     bool shadows = true;
-    // Per pixel, [1, 256], rounded up to a square number. Four come first; the rest go where those or their neighbours
-    // differ by a step of the picture's 8 bits.
+    // Per pixel, [1, 256], rounded up to a square number. Four come first; the rest go where those or their
+    // neighbours differ by a step of the picture's 8 bits.
     int samples = 16;
     std::array<float, 3> background = {0.93f, 0.93f, 0.93f};  // sRGB
     Backend backend = Backend::osmesa;
 };
 
-// Fails with unavailable (no context of that backend, with its reason; a GPU too small), invalid_argument (an option
-// out of range), limit_exceeded (an asset without triangles).
-// Cost: on OSMesa some 2 to 10 million samples per second on two cores without shadows, half with them, plus about a
-// second to build the program.
+// Fails with unavailable (no context of that backend, with its reason; a GPU too small), invalid_argument (an
+// option out of range), limit_exceeded (an asset without triangles). Cost: on OSMesa some 2 to 10 million
+// samples per second on two cores without shadows, half with them, plus about a second to build the program.
 Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options = {});
 
 struct TopOptions {
@@ -72,12 +73,12 @@ struct TopOptions {
     Backend backend = Backend::osmesa;
 };
 
-// The whole tile from straight above, as the shader draws it, in the map's scale (1 = object surface, 0 = `depth` below).
-// Fails as render_asset does, and with invalid_input when no material has a detail.
+// The whole tile from straight above, as the shader draws it, in the map's scale (1 = object surface, 0 =
+// `depth` below). Fails as render_asset does, and with invalid_input when no material has a detail.
 Result<Image> render_top(const Asset& asset, int width, int height, const TopOptions& options = {});
 
-// A ray as the decoder follows it: it passes the object surface at `origin` (metres) and moves `slope` metres over the
-// plane per metre that it falls.
+// A ray as the decoder follows it: it passes the object surface at `origin` (metres) and moves `slope` metres
+// over the plane per metre that it falls.
 struct PatternRay {
     float origin[2];
     float slope[2];
@@ -92,7 +93,8 @@ struct ShadedHit {
 
 // What the shader meets along each ray: one pixel of a float target per ray.
 Result<std::vector<ShadedHit>> shade_rays(const PackedTextures& textures, const PathDetail& detail,
-                                          std::span<const PatternRay> rays, Backend backend = Backend::osmesa);
+                                          std::span<const PatternRay> rays,
+                                          Backend backend = Backend::osmesa);
 
 // Vendor, renderer and version of the backend's context, for reports.
 Result<std::string> describe_backend(Backend backend);

@@ -8,8 +8,8 @@
 namespace burin {
 namespace {
 
-// Pixels a side of the target that a large picture is drawn in, piece by piece: bounds memory and the time of one
-// draw call, which some drivers limit.
+// Pixels a side of the target that a large picture is drawn in, piece by piece: bounds memory and the time of
+// one draw call, which some drivers limit.
 constexpr int kTile = 512;
 
 struct Screen {
@@ -29,12 +29,14 @@ struct Screen {
 Result<int> find_detail(const Asset& asset, int wanted) {
     const int count = int(asset.materials.size());
     if (wanted >= count)
-        return Error{ErrorCode::invalid_argument, "material " + std::to_string(wanted) + " is not in the asset, which has " +
+        return Error{ErrorCode::invalid_argument, "material " + std::to_string(wanted) +
+                                                      " is not in the asset, which has " +
                                                       std::to_string(count)};
     for (int i = std::max(wanted, 0); i < (wanted < 0 ? count : wanted + 1); ++i)
         if (asset.materials[std::size_t(i)].has_detail) return i;
-    return Error{ErrorCode::invalid_input, wanted < 0 ? std::string("no material of the asset has path detail")
-                                                      : "material " + std::to_string(wanted) + " has no path detail"};
+    return Error{ErrorCode::invalid_input,
+                 wanted < 0 ? std::string("no material of the asset has path detail")
+                            : "material " + std::to_string(wanted) + " has no path detail"};
 }
 
 void store(Image& image, const std::vector<float>& pixels, int x0, int y0, int width, int height) {
@@ -47,7 +49,8 @@ void store(Image& image, const std::vector<float>& pixels, int x0, int y0, int w
 
 Result<Image> render_top(const Asset& asset, int width, int height, const TopOptions& options) {
     if (width < 1 || height < 1 || options.samples < 1 || options.samples > 16)
-        return Error{ErrorCode::invalid_argument, "width and height must be at least 1, samples per side 1 to 16"};
+        return Error{ErrorCode::invalid_argument,
+                     "width and height must be at least 1, samples per side 1 to 16"};
     auto index = find_detail(asset, options.material);
     if (!index) return index.error();
     const MaterialInfo& material = asset.materials[std::size_t(*index)];

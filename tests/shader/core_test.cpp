@@ -23,7 +23,8 @@ void expect_agreement(const Agreement& agreement, const std::string& name) {
     std::cout << agreement.report(name) << std::flush;
     for (RayKind kind : {RayKind::feature, RayKind::junction, RayKind::anywhere}) {
         const std::size_t k = std::size_t(kind);
-        EXPECT_GE(agreement.facet_share(kind), 0.999) << name << ", seed " << kSeed << "\n" << agreement.worst;
+        EXPECT_GE(agreement.facet_share(kind), 0.999) << name << ", seed " << kSeed << "\n"
+                                                      << agreement.worst;
         EXPECT_LE(agreement.height_differs[k], agreement.rays[k] / 1000) << name << "\n" << agreement.worst;
         // The rule about borders must not excuse what it is not for.
         EXPECT_LE(agreement.borders[k], agreement.rays[k] / 200) << name;
@@ -78,7 +79,8 @@ TEST_P(RandomCoreTest, DecoderAndShaderAgreeWithTruth) {
     expect_agreement(judge(pattern, rays, decode_rays(pattern, rays)), "random " + std::to_string(seed));
     if (GetParam() % 3 != 0) return;
     const std::vector<ShadedHit> hits = shade(pattern, rays);
-    if (!hits.empty()) expect_agreement(judge(pattern, rays, hits), "random " + std::to_string(seed) + " as shader");
+    if (!hits.empty())
+        expect_agreement(judge(pattern, rays, hits), "random " + std::to_string(seed) + " as shader");
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoreTest, ::testing::Range(0, 8));

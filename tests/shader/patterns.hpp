@@ -1,4 +1,5 @@
-// Authored patterns that between them hold every kind of element, profile, end and junction the decoder knows.
+// Authored patterns that between them hold every kind of element, profile, end and junction the decoder
+// knows.
 //
 // Metres; tile 1 x 1 unless said, depth 0.02, base_offset 0.008 where something rises above the ground.
 #pragma once
@@ -19,17 +20,28 @@ struct NamedPattern {
     Pattern pattern;
 };
 
-inline Profile groove(double half, double deep) { return {{{-half, 0}, {-half * 0.4, -deep}, {half * 0.4, -deep}, {half, 0}}, {}}; }
+inline Profile groove(double half, double deep) {
+    return {{{-half, 0}, {-half * 0.4, -deep}, {half * 0.4, -deep}, {half, 0}}, {}};
+}
 inline Profile vee(double half, double deep) { return {{{-half, 0}, {0, -deep}, {half, 0}}, {}}; }
-inline Profile ridge(double half, double high) { return {{{-half, 0}, {-half * 0.5, high}, {half * 0.5, high}, {half, 0}}, {}}; }
+inline Profile ridge(double half, double high) {
+    return {{{-half, 0}, {-half * 0.5, high}, {half * 0.5, high}, {half, 0}}, {}};
+}
 // A groove between two raised lips: adds outside, cuts inside.
 inline Profile lipped(double half, double deep, double high) {
     return {{{-half, 0}, {-half * 0.7, high}, {0, -deep}, {half * 0.7, high}, {half, 0}}, {}};
 }
 // A rail whose head stands over its foot: not a height field.
 inline Profile rail(double half, double high) {
-    return {{{-half * 0.3, 0}, {-half * 0.3, high * 0.5}, {-half, high * 0.5}, {-half, high}, {half, high},
-             {half, high * 0.5}, {half * 0.3, high * 0.5}, {half * 0.3, 0}}, {}};
+    return {{{-half * 0.3, 0},
+             {-half * 0.3, high * 0.5},
+             {-half, high * 0.5},
+             {-half, high},
+             {half, high},
+             {half, high * 0.5},
+             {half * 0.3, high * 0.5},
+             {half * 0.3, 0}},
+            {}};
 }
 // A groove that is wider below than at its mouth.
 inline Profile undercut(double half, double deep) {
@@ -38,7 +50,9 @@ inline Profile undercut(double half, double deep) {
 }
 // Down from left to right by `drop`.
 inline Profile step(double half, double drop) { return {{{-half, 0}, {0, -drop * 0.5}, {half, -drop}}, {}}; }
-inline Profile cliff(double half, double drop) { return {{{-half, 0}, {0, 0}, {0, -drop}, {half, -drop}}, {}}; }
+inline Profile cliff(double half, double drop) {
+    return {{{-half, 0}, {0, 0}, {0, -drop}, {half, -drop}}, {}};
+}
 
 inline Element line(Vec2 a, Vec2 b) {
     Element e;
@@ -55,7 +69,8 @@ inline Element arc(Vec2 a, Vec2 control, Vec2 b) {
 
 inline Path polyline(const std::vector<Vec2>& points, std::uint32_t profile, bool closed = false) {
     Path path;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) path.elements.push_back(line(points[i], points[i + 1]));
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        path.elements.push_back(line(points[i], points[i + 1]));
     if (closed) path.elements.push_back(line(points.back(), points.front()));
     path.closed = closed;
     path.profile = profile;
@@ -71,7 +86,8 @@ inline Path circle(Vec2 c, double r, std::uint32_t profile, bool reversed = fals
         return Vec2{c.x + radius * std::cos(k * step_angle), c.y + radius * std::sin(k * step_angle)};
     };
     for (int i = 0; i < n; ++i)
-        path.elements.push_back(arc(at(i, r), at(i + 0.5, r / std::cos(step_angle * 0.5)), at((i + 1) % n, r)));
+        path.elements.push_back(
+            arc(at(i, r), at(i + 0.5, r / std::cos(step_angle * 0.5)), at((i + 1) % n, r)));
     path.closed = true;
     path.profile = profile;
     return path;
@@ -199,7 +215,8 @@ inline Pattern scaled_pattern() {
     Path bent = polyline({{0, 0}, {1, 1}}, 0);
     bent.elements = {arc({0.1, 0.7}, {0.4, 0.5}, {0.7, 0.8})};
     p.paths = {scaled(polyline({{0.1, 0.1}, {0.9, 0.15}}, 0), 0.3, 1.4, 0.3, 1.3),
-               scaled(polyline({{0.9, 0.35}, {0.1, 0.3}}, 1), 1.5, 0.5, 1.0, 0.4), scaled(bent, 1.2, 0.4, 0.5, 1.2)};
+               scaled(polyline({{0.9, 0.35}, {0.1, 0.3}}, 1), 1.5, 0.5, 1.0, 0.4),
+               scaled(bent, 1.2, 0.4, 0.5, 1.2)};
     return p;
 }
 
@@ -208,7 +225,8 @@ inline Pattern clamped_pattern() {
     p.wrap = Wrap::clamp;
     p.outer_level = 0.0;
     p.profiles = {groove(0.03, 0.010), vee(0.02, 0.008)};
-    p.paths = {polyline({{-0.1, 0.4}, {1.1, 0.45}}, 0), polyline({{0.5, -0.05}, {0.45, 0.6}, {0.8, 0.95}}, 1)};
+    p.paths = {polyline({{-0.1, 0.4}, {1.1, 0.45}}, 0),
+               polyline({{0.5, -0.05}, {0.45, 0.6}, {0.8, 0.95}}, 1)};
     return p;
 }
 

@@ -34,7 +34,8 @@ Vec2 on_element(const Element& e, double s) {
 
 double reach_of(const ResolvedPattern& pattern, std::size_t element) {
     double reach = 0.0;
-    for (const ProfilePoint& point : pattern.profiles[pattern.styles[pattern.elements[element].style].profile].points)
+    for (const ProfilePoint& point :
+         pattern.profiles[pattern.styles[pattern.elements[element].style].profile].points)
         reach = std::max(reach, std::abs(point.b));
     return std::max(reach, 1e-3);
 }
@@ -42,7 +43,8 @@ double reach_of(const ResolvedPattern& pattern, std::size_t element) {
 Vec2 aim(const PreparedPattern& p, RayKind kind, Random& random) {
     const ResolvedPattern& pattern = p.resolved;
     if (kind == RayKind::junction && !pattern.junctions.empty()) {
-        const Junction& junction = pattern.junctions[std::size_t(random.below(int(pattern.junctions.size())))];
+        const Junction& junction =
+            pattern.junctions[std::size_t(random.below(int(pattern.junctions.size())))];
         return junction.position + random.direction() * (0.06 * random.uniform());
     }
     if (kind == RayKind::anywhere || pattern.elements.empty())
@@ -81,8 +83,10 @@ struct Verdict {
     double height = 0.0;
 };
 
-// Whether the truth met a sheet of solid thinner than 2e-5 of the tile, and what stands behind it is what the decoder met.
-bool is_sheet(const Truth& truth, const PreparedPattern& p, PatternRay ray, const TruthHit& front, double drop) {
+// Whether the truth met a sheet of solid thinner than 2e-5 of the tile, and what stands behind it is what the
+// decoder met.
+bool is_sheet(const Truth& truth, const PreparedPattern& p, PatternRay ray, const TruthHit& front,
+              double drop) {
     const double run = std::hypot(double(ray.slope[0]), double(ray.slope[1]));
     if (run == 0.0) return false;
     const double past = front.drop + 2e-5 * std::max(p.detail.size_u, p.detail.size_v) / run;
@@ -111,7 +115,8 @@ Verdict compare(const Truth& truth, const PreparedPattern& p, const AimedRay& ai
     for (int i = 0; i < 3; ++i) cosine += double(hit.normal[i]) * right.hit.normal[i];
     if (v.height < 2e-5 && cosine > 0.99999) v.facet_differs = false;
     // The wall at the border of a map is the ground's.
-    if (hit.element == kDecodedGround && hit.facet == kDecodedWall && right.hit.element == kGround) v.facet_differs = false;
+    if (hit.element == kDecodedGround && hit.facet == kDecodedWall && right.hit.element == kGround)
+        v.facet_differs = false;
     v.height_differs = v.height > 1e-3;
     if (!v.facet_differs && !v.height_differs) return v;
     v.sheet = is_sheet(truth, p, aimed.ray, right, double(hit.drop));
@@ -158,7 +163,8 @@ std::vector<AimedRay> aim_rays(const PreparedPattern& p, int count, std::uint64_
     Random random(seed);
     std::vector<AimedRay> rays;
     for (int i = 0; i < count; ++i) {
-        const RayKind kind = i % 2 == 0 ? RayKind::feature : (i % 4 == 1 ? RayKind::junction : RayKind::anywhere);
+        const RayKind kind =
+            i % 2 == 0 ? RayKind::feature : (i % 4 == 1 ? RayKind::junction : RayKind::anywhere);
         const Vec2 at = aim(p, kind, random);
         const double tangent = random.chance(0.1) ? 0.0 : 3.0 * random.uniform();
         const Vec2 slope = random.direction() * tangent;
@@ -179,17 +185,21 @@ std::string Agreement::report(const std::string& name) const {
     for (int k = 0; k < kRayKinds; ++k) {
         char row[200];
         const std::size_t i = std::size_t(k);
-        std::snprintf(row, sizeof row, "%-10s %-10s %7d rays  same facet %9.5f %%  height off %5d  at borders %5d  sheets %4d\n",
-                      name.c_str(), kRayKindNames[k], rays[i], 100.0 * facet_share(RayKind(k)), height_differs[i],
-                      borders[i], sheets[i]);
+        std::snprintf(
+            row, sizeof row,
+            "%-10s %-10s %7d rays  same facet %9.5f %%  height off %5d  at borders %5d  sheets %4d\n",
+            name.c_str(), kRayKindNames[k], rays[i], 100.0 * facet_share(RayKind(k)), height_differs[i],
+            borders[i], sheets[i]);
         text += row;
     }
     char row[100];
-    std::snprintf(row, sizeof row, "%-10s worst height %.2e of range, not met %d\n", name.c_str(), worst_height, not_met);
+    std::snprintf(row, sizeof row, "%-10s worst height %.2e of range, not met %d\n", name.c_str(),
+                  worst_height, not_met);
     return text + row;
 }
 
-Agreement judge(const PreparedPattern& p, const std::vector<AimedRay>& rays, const std::vector<ShadedHit>& hits) {
+Agreement judge(const PreparedPattern& p, const std::vector<AimedRay>& rays,
+                const std::vector<ShadedHit>& hits) {
     TruthOptions options;
     options.level_tolerance = 4e-5;
     const Truth truth(p.stored, options);
@@ -204,16 +214,19 @@ Agreement judge(const PreparedPattern& p, const std::vector<AimedRay>& rays, con
         sum.sheets[k] += v.sheet;
         sum.facet_differs[k] += v.facet_differs && !v.border;
         sum.height_differs[k] += v.height_differs && !v.border;
-        if (!v.facet_differs && !v.sheet) sum.worst_height = std::max(sum.worst_height, v.border ? 0.0 : v.height);
+        if (!v.facet_differs && !v.sheet)
+            sum.worst_height = std::max(sum.worst_height, v.border ? 0.0 : v.height);
         if ((v.facet_differs || v.height_differs) && !v.border && sum.worst.size() < 2000) {
             const PatternRay& r = rays[i].ray;
             const TruthHit right = ask(truth, p, r, {});
             char row[300];
             std::snprintf(row, sizeof row,
-                          "  %s ray %zu origin %.6f %.6f slope %.4f %.4f: met drop %.7f element %d facet %d, truth drop "
+                          "  %s ray %zu origin %.6f %.6f slope %.4f %.4f: met drop %.7f element %d facet %d, "
+                          "truth drop "
                           "%.7f element %d facet %d\n",
                           kRayKindNames[k], i, double(r.origin[0]), double(r.origin[1]), double(r.slope[0]),
-                          double(r.slope[1]), double(hits[i].drop), int(hits[i].element), hits[i].facet, right.drop,
+                          double(r.slope[1]), double(hits[i].drop), int(hits[i].element), hits[i].facet,
+                          right.drop,
                           right.hit.element == kGround ? -1 : int(p.element_texels[right.hit.element]),
                           int(right.hit.facet));
             sum.worst += row;
@@ -229,7 +242,9 @@ std::vector<ShadedHit> decode_rays(const PreparedPattern& p, const std::vector<A
         const PatternRay& r = rays[i].ray;
         const DecodedHit hit = decoder.trace({double(r.origin[0]), double(r.origin[1])},
                                              {double(r.slope[0]), double(r.slope[1])});
-        hits[i] = {float(hit.drop), hit.element, hit.facet,
+        hits[i] = {float(hit.drop),
+                   hit.element,
+                   hit.facet,
                    {float(hit.normal[0]), float(hit.normal[1]), float(hit.normal[2])}};
     });
     return hits;

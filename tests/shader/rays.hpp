@@ -27,10 +27,10 @@ struct AimedRay {
 
 // A pattern through all stages: what the textures hold, and the truth about just that.
 struct PreparedPattern {
-    ResolvedPattern resolved;      // as authored: knows the junctions
+    ResolvedPattern resolved;  // as authored: knows the junctions
     PackedTextures textures;
     PathDetail detail;
-    ResolvedPattern stored;        // read back from the textures
+    ResolvedPattern stored;                     // read back from the textures
     std::vector<std::uint32_t> element_texels;  // texel of each stored element
 };
 
@@ -50,11 +50,13 @@ struct Agreement {
     std::string report(const std::string& name) const;
 };
 
-// Holds answers against the truth. A ray whose neighbours, a thousandth of the reach away, meet different facets
-// passes beside a border and is counted under `borders`, whatever it met. Where a groove goes over a step, rounding of
-// stored angles can leave a sheet of solid thinner than the format resolves; the truth of the stored numbers meets it, the
-// decoder goes through on purpose: counted under `sheets` when both agree on what is behind.
-Agreement judge(const PreparedPattern& pattern, const std::vector<AimedRay>& rays, const std::vector<ShadedHit>& hits);
+// Holds answers against the truth. A ray whose neighbours, a thousandth of the reach away, meet different
+// facets passes beside a border and is counted under `borders`, whatever it met. Where a groove goes over a
+// step, rounding of stored angles can leave a sheet of solid thinner than the format resolves; the truth of
+// the stored numbers meets it, the decoder goes through on purpose: counted under `sheets` when both agree on
+// what is behind.
+Agreement judge(const PreparedPattern& pattern, const std::vector<AimedRay>& rays,
+                const std::vector<ShadedHit>& hits);
 
 // The decoder on the CPU, in the form of the shader's answer.
 std::vector<ShadedHit> decode_rays(const PreparedPattern& pattern, const std::vector<AimedRay>& rays);
