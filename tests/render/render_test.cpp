@@ -1,0 +1,175 @@
+// Pictures of the off-screen renderer against pictures made by the decoder on the CPU, and top views against
+// heights.
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include <burin/rasterize.hpp>
+#include <cpp/decode.hpp>
+#include <gl/render.hpp>
+
+#include "../shader/patterns.hpp"
+#include "../shader/rays.hpp"
+
+namespace burin::testing {
+namespace {
+
+Backend backend() {
+    const char* wanted = std::getenv("BURIN_BACKEND");
+    return wanted != nullptr && std::string(wanted) == "egl" ? Backend::egl : Backend::osmesa;
+}
+
+// A plane as make_plane lays it out, with the pattern on it.
+Asset plane_with(const PreparedPattern& p, bool patterned = true) {
+    Asset asset;
+    MaterialInfo material;
+    material.base_color[0] = material.base_color[1] = material.base_color[2] = 0.5f;
+    material.metallic = 0.0f;
+    material.roughness = 1.0f;
+    material.has_detail = patterned;
+    material.detail = p.detail;
+    material.textures = p.textures;
+    asset.materials.push_back(material);
+    const float x = float(p.detail.size_u / 2), z = float(p.detail.size_v / 2);
+    Primitive plane;
+    plane.positions = {-x, 0, -z, x, 0, -z, x, 0, z, -x, 0, z};
+    for (int i = 0; i < 4; ++i) plane.normals.insert(plane.normals.end(), {0, 1, 0});
+    plane.uvs = {0, 0, 1, 0, 1, 1, 0, 1};
+    plane.indices = {0, 2, 1, 0, 3, 2};
+    asset.primitives.push_back(plane);
+    return asset;
+}
+
+#define SKIP_WITHOUT_CONTEXT(result)                                  \
+    if (!(result) && (result).error().code == ErrorCode::unavailable) \
+    GTEST_SKIP() << "SKIPPED: " << (result).error().message
+
+TEST(RenderTop, EqualsDecoder) {
+    for (const Pattern& pattern : {corner_pattern(JoinKind::round), plateau_pattern(), clamped_pattern()}) {
+        const PreparedPattern p = prepare(pattern);
+        // Wider than one tile of the renderer, and neither side a multiple of it.
+        auto top = render_top(plane_with(p), 700, 530, {.backend = backend()});
+        SKIP_WITHOUT_CONTEXT(top);
+        ASSERT_TRUE(top.ok()) << top.error().message;
+        const Image expected = decode_top(p.textures, p.detail, 700, 530);
+        int off = 0;
+        for (std::size_t i = 0; i < expected.texels.size(); ++i)
+            off += std::abs(expected.texels[i] - top->texels[i]) > 1e-4f;
+        // Points on the edge of a wall may fall to either side.
+        EXPECT_LE(off, 8);
+    }
+}
+
+TEST(RenderTop, BoxOfSamplesEqualsRasterizer) {
+    const PreparedPattern p = prepare(crossing_pattern());
+    auto top = render_top(plane_with(p), 128, 128, {.samples = 4, .backend = backend()});
+    SKIP_WITHOUT_CONTEXT(top);
+    ASSERT_TRUE(top.ok()) << top.error().message;
+    RasterizeOptions options;
+    options.level_tolerance = 4e-5;
+    const Image expected = rasterize_height(p.stored, 128, 128, options);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < expected.texels.size(); ++i)
+        worst = std::max(worst, double(std::abs(expected.texels[i] - top->texels[i])));
+    // Both average 4 x 4 points; texels of one plane are exact in the rasterizer.
+    EXPECT_LT(worst, 0.03);
+}
+
+// What the picture of a plane from straight above by an orthographic camera has at a point of the pattern:
+// Lambert and the sky, shadow by the decoder.
+double expected_light(const PreparedPattern& p, Vec2 at, const RenderOptions& options, bool& edge) {
+    const Decoder decoder(p.textures, p.detail);
+    const DecodedHit hit = decoder.trace(at, {0, 0});
+    const double a = options.light.azimuth * 3.14159265358979 / 180,
+                 e = options.light.elevation * 3.14159265358979 / 180;
+    // World x is pattern x, world z is pattern y, world y is up.
+    const double light[3] = {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
+    const double cosine = hit.normal[0] * light[0] + hit.normal[1] * light[1] + hit.normal[2] * light[2];
+    const Vec2 slope{-light[0] / light[2], -light[1] / light[2]};
+    const auto blocked = [&](double drop) {
+        return decoder.trace(at - slope * drop, slope).drop < drop - 0.004 * p.detail.depth;
+    };
+    const bool shadow = blocked(hit.drop);
+    for (const Vec2 way : {Vec2{0.002, 0}, Vec2{-0.002, 0}, Vec2{0, 0.002}, Vec2{0, -0.002}}) {
+        const DecodedHit near = decoder.trace(at + way, {0, 0});
+        const bool near_shadow =
+            decoder.trace(at + way - slope * near.drop, slope).drop < near.drop - 0.004 * p.detail.depth;
+        edge = edge || near.facet != hit.facet || near.element != hit.element || near_shadow != shadow;
+    }
+    return cosine > 0.0 && !shadow ? cosine : 0.0;
+}
+
+TEST(RenderAsset, LightAndShadowAsTheDecoderSays) {
+    for (const Pattern& pattern : {crossing_pattern(), plateau_pattern(), overhang_pattern()}) {
+        const PreparedPattern p = prepare(pattern);
+        RenderOptions options;
+        options.width = options.height = 96;
+        options.samples = 1;
+        options.camera.orthographic = true;
+        options.camera.azimuth = 0;
+        options.camera.elevation = 90;
+        options.light.ambient = 0.0;
+        options.backend = backend();
+        auto picture = render_asset(plane_with(p), options);
+        SKIP_WITHOUT_CONTEXT(picture);
+        ASSERT_TRUE(picture.ok()) << picture.error().message;
+        // The camera shows 1.03 times the larger side.
+        const double view = 1.03 * std::max(p.detail.size_u, p.detail.size_v);
+        int asked = 0, wrong = 0, dark = 0;
+        for (int y = 0; y < options.height; ++y)
+            for (int x = 0; x < options.width; ++x) {
+                const Vec2 at{p.detail.size_u / 2 + ((x + 0.5) / options.width - 0.5) * view,
+                              p.detail.size_v / 2 + ((y + 0.5) / options.height - 0.5) * view};
+                if (at.x < 0.01 || at.y < 0.01 || at.x > p.detail.size_u - 0.01 ||
+                    at.y > p.detail.size_v - 0.01)
+                    continue;
+                bool edge = false;
+                const double cosine = expected_light(p, at, options, edge);
+                if (edge) continue;
+                const double seen = picture->texels[4 * std::size_t(y * options.width + x)];
+                // Diffuse part alone: the specular part of a rough dielectric adds a little.
+                const double linear = std::pow((seen / 255.0 + 0.055) / 1.055, 2.4);
+                const double diffuse = 0.5 / 3.14159265 * options.light.strength * cosine;
+                ++asked;
+                dark += cosine == 0.0;
+                wrong += cosine == 0.0 ? seen > 1 : linear < diffuse * 0.85 || linear > diffuse * 1.35 + 0.02;
+            }
+        EXPECT_GT(asked, 4000);
+        EXPECT_LE(wrong, asked / 500) << "of " << asked << ", dark " << dark;
+    }
+}
+
+TEST(RenderAsset, ModelWithoutDetailIsShadedByItsMesh) {
+    const PreparedPattern p = prepare(crossing_pattern());
+    RenderOptions options;
+    options.width = 40;
+    options.height = 30;
+    options.samples = 4;
+    options.backend = backend();
+    auto picture = render_asset(plane_with(p, false), options);
+    SKIP_WITHOUT_CONTEXT(picture);
+    ASSERT_TRUE(picture.ok()) << picture.error().message;
+    const std::uint8_t* middle = &picture->texels[4 * std::size_t(15 * 40 + 20)];
+    const std::uint8_t* corner = &picture->texels[0];
+    EXPECT_NEAR(corner[0], 0.93 * 255, 1.5);
+    EXPECT_NE(middle[0], corner[0]);
+}
+
+TEST(RenderAsset, RefusesWhatItCannotDraw) {
+    const PreparedPattern p = prepare(crossing_pattern());
+    const Asset plane = plane_with(p);
+    RenderOptions wide;
+    wide.width = 9000;
+    EXPECT_EQ(render_asset(plane, wide).error().code, ErrorCode::invalid_argument);
+    RenderOptions zoomed;
+    zoomed.camera.zoom = 0.0;
+    EXPECT_EQ(render_asset(plane, zoomed).error().code, ErrorCode::invalid_argument);
+    EXPECT_EQ(render_asset(Asset{}, {}).error().code, ErrorCode::invalid_input);
+    EXPECT_EQ(render_top(plane_with(p, false), 8, 8).error().code, ErrorCode::invalid_input);
+    EXPECT_EQ(render_top(plane, 8, 8, {.material = 5}).error().code, ErrorCode::invalid_argument);
+}
+
+}  // namespace
+}  // namespace burin::testing
