@@ -7,3 +7,5 @@ target_compile_options(burin_flags INTERFACE
     # No fused multiply-add: equal bytes on every machine.
     -ffp-contract=off
     $<$<BOOL:${BURIN_WERROR}>:-Werror>)
+# Libraries that a program does not call are not loaded with it: each brings dozens of others.
+target_link_options(burin_flags INTERFACE -Wl,--as-needed)
