@@ -25,7 +25,8 @@ std::vector<Feature> features_of(const ResolvedPattern& pattern) {
         const auto& points = pattern.profiles[pattern.styles[e.style].profile].points;
         double low = 0.0, high = 0.0;
         for (const ProfilePoint& p : points) low = std::min(low, p.b), high = std::max(high, p.b);
-        features.push_back({curve::arc_length(e.element), (high - low) * 0.5 * (e.element.width0 + e.element.width1)});
+        features.push_back(
+            {curve::arc_length(e.element), (high - low) * 0.5 * (e.element.width0 + e.element.width1)});
     }
     return features;
 }
@@ -43,12 +44,16 @@ struct Cost {
     double total() const { return work * std::pow(bytes + 16384.0, 0.35); }
 };
 
-// A strip of length l and width w at a random place meets (l w + (l + w) c 4 / pi + c^2) / c^2 squares of side c.
-Cost foretell(const ResolvedPattern& pattern, const std::vector<Feature>& features, double cell, double margin) {
+// A strip of length l and width w at a random place meets (l w + (l + w) c 4 / pi + c^2) / c^2 squares of
+// side c.
+Cost foretell(const ResolvedPattern& pattern, const std::vector<Feature>& features, double cell,
+              double margin) {
     const double side = cell * (1.0 + 2.0 * margin), area = pattern.size.x * pattern.size.y;
     double refs = 0.0, seen = 0.0;
     for (const Feature& f : features) {
-        const double touched = (f.length * f.width + (f.length + f.width) * side * 4.0 / 3.14159265358979 + side * side) / (cell * cell);
+        const double touched =
+            (f.length * f.width + (f.length + f.width) * side * 4.0 / 3.14159265358979 + side * side) /
+            (cell * cell);
         refs += touched;
         seen += touched;
     }
@@ -66,23 +71,28 @@ std::string count_text(double v) { return std::to_string(v); }
 
 Status check_options(const GridOptions& options) {
     if (!(options.cell_size >= 0.0) || !std::isfinite(options.cell_size))
-        return Error{ErrorCode::invalid_argument, "cell_size is " + count_text(options.cell_size) + "; it must be 0 or more"};
+        return Error{ErrorCode::invalid_argument,
+                     "cell_size is " + count_text(options.cell_size) + "; it must be 0 or more"};
     if (!(options.margin >= 0.0 && options.margin <= 1.0))
-        return Error{ErrorCode::invalid_argument, "margin is " + count_text(options.margin) + "; allowed is [0, 1]"};
+        return Error{ErrorCode::invalid_argument,
+                     "margin is " + count_text(options.margin) + "; allowed is [0, 1]"};
     if (options.threads < 0) return Error{ErrorCode::invalid_argument, "threads is negative"};
     return Done{};
 }
 
-// A copy that acts at distance x of its midpoint is the nearest one for a cell when x + (0.5 + margin) cells < 0.5 size.
+// A copy that acts at distance x of its midpoint is the nearest one for a cell when x + (0.5 + margin) cells
+// < 0.5 size.
 Result<Limits> find_limits(const ResolvedPattern& pattern, const Chain& chain, double margin) {
     if (pattern.wrap != Wrap::repeat || pattern.elements.empty()) return Limits{};
     const Vec2 extent = farthest_extent(pattern, chain);
     const double free_x = 0.499 - extent.x / pattern.size.x, free_y = 0.499 - extent.y / pattern.size.y;
     const double most = static_cast<double>(BURIN_MAX_TEXTURE_SIDE);
     if (free_x * most < 0.5 + margin || free_y * most < 0.5 + margin)
-        return Error{ErrorCode::limit_exceeded, "an element acts " + count_text(std::max(extent.x, extent.y)) +
-                                                    " m from its middle, around half of the repeating tile; shorten it"};
-    return Limits{static_cast<int>(std::ceil((0.5 + margin) / free_x)), static_cast<int>(std::ceil((0.5 + margin) / free_y))};
+        return Error{ErrorCode::limit_exceeded,
+                     "an element acts " + count_text(std::max(extent.x, extent.y)) +
+                         " m from its middle, around half of the repeating tile; shorten it"};
+    return Limits{static_cast<int>(std::ceil((0.5 + margin) / free_x)),
+                  static_cast<int>(std::ceil((0.5 + margin) / free_y))};
 }
 
 Frame frame_of(const ResolvedPattern& pattern, const Limits& limits, double cell, double margin) {
@@ -93,14 +103,16 @@ Frame frame_of(const ResolvedPattern& pattern, const Limits& limits, double cell
     return {pattern, cols, rows, margin, {pattern.size.x / cols, pattern.size.y / rows}};
 }
 
-// A few more columns or rows where a step would run along cell centres: then their level would hang on rounding.
+// A few more columns or rows where a step would run along cell centres: then their level would hang on
+// rounding.
 Frame with_clear_centres(const Frame& frame) {
     int fewest = doubtful_centres(frame), cols = frame.cols, rows = frame.rows;
     const auto grown = [&](int c, int r) {
         return Frame{frame.pattern, c, r, frame.margin, {frame.pattern.size.x / c, frame.pattern.size.y / r}};
     };
     for (int more = 1; more < 25 && fewest > 0; ++more) {
-        const int c = std::min(frame.cols + more % 5, BURIN_MAX_TEXTURE_SIDE), r = std::min(frame.rows + more / 5, BURIN_MAX_TEXTURE_SIDE);
+        const int c = std::min(frame.cols + more % 5, BURIN_MAX_TEXTURE_SIDE),
+                  r = std::min(frame.rows + more / 5, BURIN_MAX_TEXTURE_SIDE);
         const int count = doubtful_centres(grown(c, r));
         if (count < fewest) fewest = count, cols = c, rows = r;
     }
@@ -141,9 +153,11 @@ Fullest fullest_cell(const std::vector<std::vector<Hit>>& hits, std::size_t cell
 Error too_full(const Frame& frame, const Fullest& fullest, double fitting) {
     const int cols = frame.cols;
     std::string message = "cell (" + std::to_string(static_cast<int>(fullest.cell) % cols) + "," +
-                          std::to_string(static_cast<int>(fullest.cell) / cols) + ") lists " + std::to_string(fullest.count) +
-                          " elements, limit " + std::to_string(BURIN_MAX_REFS_PER_CELL) + "; ";
-    message += fitting > 0.0 ? "cell_size " + count_text(fitting) + " would fit" : "no cell size fits, too many elements act at one place";
+                          std::to_string(static_cast<int>(fullest.cell) / cols) + ") lists " +
+                          std::to_string(fullest.count) + " elements, limit " +
+                          std::to_string(BURIN_MAX_REFS_PER_CELL) + "; ";
+    message += fitting > 0.0 ? "cell_size " + count_text(fitting) + " would fit"
+                             : "no cell size fits, too many elements act at one place";
     return {ErrorCode::limit_exceeded, message};
 }
 
@@ -163,7 +177,8 @@ Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& o
     for (int round = 0; round < 12; ++round, cell *= 0.75) {
         const Frame frame = with_clear_centres(frame_of(pattern, *limits, cell, options.margin));
         const auto hits = find_hits(frame, chain, options.threads);
-        const Fullest fullest = fullest_cell(hits, static_cast<std::size_t>(frame.cols) * static_cast<std::size_t>(frame.rows));
+        const Fullest fullest =
+            fullest_cell(hits, static_cast<std::size_t>(frame.cols) * static_cast<std::size_t>(frame.rows));
         if (fullest.count <= BURIN_MAX_REFS_PER_CELL) {
             if (chosen && refused_frame) return too_full(*refused_frame, refused, cell);
             return fill_cells(frame, chain, hits);

@@ -24,7 +24,8 @@ double rise_of(const ResolvedPattern& pattern, const ResolvedElement& e) {
 class Ground {
   public:
     explicit Ground(const ResolvedPattern& pattern)
-        : pattern_(pattern), index_(chords(pattern, tolerance_), pattern.size, pattern.wrap == Wrap::repeat) {}
+        : pattern_(pattern),
+          index_(chords(pattern, tolerance_), pattern.size, pattern.wrap == Wrap::repeat) {}
 
     struct Answer {
         double level, distance;
@@ -39,14 +40,18 @@ class Ground {
             const ResolvedElement& e = pattern_.elements[chord.element];
             const Vec2 q = p - shift * pattern_.size;
             double along = 0.0;
-            if (resolving::segment_distance(chord.a, chord.b, q, along) > answer.distance + tolerance_) return answer.distance;
+            if (resolving::segment_distance(chord.a, chord.b, q, along) > answer.distance + tolerance_)
+                return answer.distance;
             // The arc itself, where the chord is near enough to matter.
-            const double s = e.element.kind == ElementKind::line ? chord.s0 + along * (chord.s1 - chord.s0) : curve::nearest(e.element, q);
+            const double s = e.element.kind == ElementKind::line ? chord.s0 + along * (chord.s1 - chord.s0)
+                                                                 : curve::nearest(e.element, q);
             const Vec2 gap = q - curve::point(e.element, s);
             const double across = cross(curve::tangent(e.element, s), gap), distance = length(gap);
             const double slack = 1e-9 * distance;
-            if (distance < answer.distance - slack || (distance <= answer.distance + slack && std::abs(across) > perpendicular)) {
-                answer = {pattern_.styles[e.style].level + (across < 0.0 ? 0.0 : rise_of(pattern_, e)), distance};
+            if (distance < answer.distance - slack ||
+                (distance <= answer.distance + slack && std::abs(across) > perpendicular)) {
+                answer = {pattern_.styles[e.style].level + (across < 0.0 ? 0.0 : rise_of(pattern_, e)),
+                          distance};
                 perpendicular = std::abs(across);
             }
             return answer.distance;
@@ -64,7 +69,8 @@ class Ground {
             const int count = curve::chord_count(e.element, tolerance);
             for (int k = 0; k < count; ++k) {
                 const double s0 = static_cast<double>(k) / count, s1 = static_cast<double>(k + 1) / count;
-                result.push_back({curve::point(e.element, s0), curve::point(e.element, s1), s0, s1, e.path, i});
+                result.push_back(
+                    {curve::point(e.element, s0), curve::point(e.element, s1), s0, s1, e.path, i});
             }
         }
         return result;
@@ -130,8 +136,8 @@ void fill_bounds(const Frame& frame, const std::vector<std::vector<Hit>>& hits, 
     }
 }
 
-// Whether the listed elements are one open chain: from the only one that none of them leads to, all are reached. A closed
-// loop within one cell is not simple, and must not stand in for a chain beside it.
+// Whether the listed elements are one open chain: from the only one that none of them leads to, all are
+// reached. A closed loop within one cell is not simple, and must not stand in for a chain beside it.
 bool is_open_chain(const Chain& chain, std::span<const std::uint32_t> list) {
     const auto listed = [list](std::uint32_t element) {
         return element != kNoElement && std::binary_search(list.begin(), list.end(), element);
@@ -145,7 +151,8 @@ bool is_open_chain(const Chain& chain, std::span<const std::uint32_t> list) {
     });
     if (start == list.end()) return list.empty();
     std::size_t reached = 1;
-    for (std::uint32_t at = *start; listed(chain.next[at]) && reached < list.size(); at = chain.next[at]) ++reached;
+    for (std::uint32_t at = *start; listed(chain.next[at]) && reached < list.size(); at = chain.next[at])
+        ++reached;
     return reached == list.size();
 }
 
@@ -166,7 +173,8 @@ void fill_skip(const Frame& frame, CellGrid& grid) {
     constexpr int kFar = (1 << BURIN_CELL_SKIP_BITS);
     const int cols = frame.cols, rows = frame.rows;
     std::vector<int> distance(grid.flags.size());
-    for (std::size_t k = 0; k < distance.size(); ++k) distance[k] = grid.first_ref[k] != grid.first_ref[k + 1] ? 0 : kFar;
+    for (std::size_t k = 0; k < distance.size(); ++k)
+        distance[k] = grid.first_ref[k] != grid.first_ref[k + 1] ? 0 : kFar;
     const auto at = [&](int col, int row) -> int {
         const bool out = col < 0 || row < 0 || col >= cols || row >= rows;
         // What lies beyond a clamped map's border is another ground.
@@ -182,7 +190,8 @@ void fill_skip(const Frame& frame, CellGrid& grid) {
                 const int col = k % cols, row = k / cols;
                 int best = distance[k];
                 for (int dy = -1; dy <= 1; ++dy)
-                    for (int dx = -1; dx <= 1; ++dx) best = std::min(best, at(col + dx, row + dy) + 1 - (dx == 0 && dy == 0));
+                    for (int dx = -1; dx <= 1; ++dx)
+                        best = std::min(best, at(col + dx, row + dy) + 1 - (dx == 0 && dy == 0));
                 if (best < distance[k]) distance[k] = best, changed = true;
             }
     }
@@ -211,14 +220,19 @@ int doubtful_centres(const Frame& frame) {
     int count = 0;
     for (const ResolvedElement& e : frame.pattern.elements) {
         if (!frame.pattern.styles[e.style].step) continue;
-        const int pieces = std::max(1, static_cast<int>(4.0 * curve::arc_length(e.element) / std::min(frame.cell.x, frame.cell.y)));
+        const int pieces = std::max(
+            1, static_cast<int>(4.0 * curve::arc_length(e.element) / std::min(frame.cell.x, frame.cell.y)));
         Vec2 before = e.element.p0;
         for (int i = 1; i <= pieces; ++i) {
-            const Vec2 p = curve::point(e.element, static_cast<double>(i) / pieces), middle = lerp(before, p, 0.5);
-            const Vec2 cell{std::floor(middle.x / frame.cell.x) + 0.5, std::floor(middle.y / frame.cell.y) + 0.5};
+            const Vec2 p = curve::point(e.element, static_cast<double>(i) / pieces),
+                       middle = lerp(before, p, 0.5);
+            const Vec2 cell{std::floor(middle.x / frame.cell.x) + 0.5,
+                            std::floor(middle.y / frame.cell.y) + 0.5};
             const double near = 1e-3 * std::min(frame.cell.x, frame.cell.y);
             double along = 0.0;
-            if (resolving::segment_distance(before, p, {cell.x * frame.cell.x, cell.y * frame.cell.y}, along) < near) ++count;
+            if (resolving::segment_distance(before, p, {cell.x * frame.cell.x, cell.y * frame.cell.y},
+                                            along) < near)
+                ++count;
             before = p;
         }
     }

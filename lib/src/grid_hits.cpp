@@ -23,7 +23,8 @@ bool is_smooth(const ElementEnd& a, const ElementEnd& b) {
 bool same_place(const ResolvedPattern& pattern, Vec2 p, Vec2 q) {
     Vec2 gap = q - p;
     if (pattern.wrap == Wrap::repeat)
-        gap = gap - Vec2{std::round(gap.x / pattern.size.x) * pattern.size.x, std::round(gap.y / pattern.size.y) * pattern.size.y};
+        gap = gap - Vec2{std::round(gap.x / pattern.size.x) * pattern.size.x,
+                         std::round(gap.y / pattern.size.y) * pattern.size.y};
     // Unpacked coordinates carry the rounding of 20 bits.
     return std::abs(gap.x) <= 4e-6 * pattern.size.x && std::abs(gap.y) <= 4e-6 * pattern.size.y;
 }
@@ -35,7 +36,8 @@ void merge(HeightRange& into, const HeightRange& range) {
 
 class Toucher {
   public:
-    Toucher(const Frame& frame, const ResolvedElement& element, Joints joints) : frame_(frame), element_(element) {
+    Toucher(const Frame& frame, const ResolvedElement& element, Joints joints)
+        : frame_(frame), element_(element) {
         const double piece = 3.0 * std::max(frame.cell.x, frame.cell.y);
         profile_ = &frame.pattern.profiles[frame.pattern.styles[element.style].profile];
         for (const Shape& shape : shapes_of(frame.pattern, element, joints, piece)) touch(shape);
@@ -59,8 +61,12 @@ class Toucher {
 
   private:
     void touch(const Shape& shape) {
-        const auto first = [&](double low, double side) { return static_cast<int>(std::floor(low / side - frame_.margin)) ; };
-        const auto last = [&](double high, double side) { return static_cast<int>(std::floor(high / side + frame_.margin)); };
+        const auto first = [&](double low, double side) {
+            return static_cast<int>(std::floor(low / side - frame_.margin));
+        };
+        const auto last = [&](double high, double side) {
+            return static_cast<int>(std::floor(high / side + frame_.margin));
+        };
         int left = first(shape.box.low.x, frame_.cell.x), right = last(shape.box.high.x, frame_.cell.x);
         int top = first(shape.box.low.y, frame_.cell.y), bottom = last(shape.box.high.y, frame_.cell.y);
         if (!frame_.repeats()) {
@@ -77,9 +83,11 @@ class Toucher {
         Hit hit;
         const int x = frame_.repeats() ? (col % frame_.cols + frame_.cols) % frame_.cols : col;
         const int y = frame_.repeats() ? (row % frame_.rows + frame_.rows) % frame_.rows : row;
-        hit.cell = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame_.cols) + static_cast<std::uint32_t>(x);
+        hit.cell = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame_.cols) +
+                   static_cast<std::uint32_t>(x);
         hit.end_zone = shape.end_zone;
-        hit.path_line = shape.path_line && segment_meets(shape.chord[0], shape.chord[1], shape.sag + 1e-9 * frame_.cell.x, rectangle);
+        hit.path_line = shape.path_line && segment_meets(shape.chord[0], shape.chord[1],
+                                                         shape.sag + 1e-9 * frame_.cell.x, rectangle);
         hit.heights = heights_in(shape, *profile_, rectangle);
         hits_.push_back(hit);
     }
@@ -94,7 +102,8 @@ class Toucher {
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
     const unsigned machine = std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t workers = std::min<std::size_t>(threads > 0 ? static_cast<std::size_t>(threads) : machine, (count + 255) / 256);
+    const std::size_t workers =
+        std::min<std::size_t>(threads > 0 ? static_cast<std::size_t>(threads) : machine, (count + 255) / 256);
     if (workers <= 1) {
         for (std::size_t i = 0; i < count; ++i) work(i);
         return;
@@ -111,9 +120,12 @@ void for_each_index(std::size_t count, int threads, const std::function<void(std
 
 Chain find_chain(const ResolvedPattern& pattern) {
     const auto& elements = pattern.elements;
-    Chain chain{std::vector<std::uint32_t>(elements.size(), kNoElement), std::vector<char>(elements.size(), 0)};
+    Chain chain{std::vector<std::uint32_t>(elements.size(), kNoElement),
+                std::vector<char>(elements.size(), 0)};
     const auto link = [&](std::size_t a, std::size_t b) {
-        if (!is_smooth(elements[a].end, elements[b].start) || !same_place(pattern, elements[a].element.p2, elements[b].element.p0)) return;
+        if (!is_smooth(elements[a].end, elements[b].start) ||
+            !same_place(pattern, elements[a].element.p2, elements[b].element.p0))
+            return;
         // A change of profile or level is a joint of place, not of surface.
         if (elements[a].style != elements[b].style) return;
         chain.next[a] = static_cast<std::uint32_t>(b);
@@ -147,7 +159,8 @@ Vec2 farthest_extent(const ResolvedPattern& pattern, const Chain& chain) {
 std::vector<std::vector<Hit>> find_hits(const Frame& frame, const Chain& chain, int threads) {
     std::vector<std::vector<Hit>> hits(frame.pattern.elements.size());
     for_each_index(hits.size(), threads, [&](std::size_t i) {
-        hits[i] = Toucher(frame, frame.pattern.elements[i], chain.joints(static_cast<std::uint32_t>(i))).take();
+        hits[i] =
+            Toucher(frame, frame.pattern.elements[i], chain.joints(static_cast<std::uint32_t>(i))).take();
     });
     return hits;
 }

@@ -17,7 +17,7 @@ struct Hit {
     std::uint32_t cell = 0;
     bool path_line = false;  // a step's arc passes the margin rectangle
     bool end_zone = false;   // an end that is no smooth joint acts there
-    HeightRange heights;  // above the element's level
+    HeightRange heights;     // above the element's level
 };
 
 struct Frame {
@@ -28,7 +28,8 @@ struct Frame {
     bool repeats() const { return pattern.wrap == Wrap::repeat; }
     // Rectangle of an unwrapped cell, grown by the margin.
     Box margin_rectangle(int col, int row) const {
-        return {{(col - margin) * cell.x, (row - margin) * cell.y}, {(col + 1 + margin) * cell.x, (row + 1 + margin) * cell.y}};
+        return {{(col - margin) * cell.x, (row - margin) * cell.y},
+                {(col + 1 + margin) * cell.x, (row + 1 + margin) * cell.y}};
     }
     Vec2 centre(int col, int row) const { return {(col + 0.5) * cell.x, (row + 0.5) * cell.y}; }
 };
@@ -42,10 +43,12 @@ struct Chain {
 };
 Chain find_chain(const ResolvedPattern& pattern);
 
-// Farthest point, along each axis, at which an element acts, from its chord's midpoint; the largest of all elements.
+// Farthest point, along each axis, at which an element acts, from its chord's midpoint; the largest of all
+// elements.
 Vec2 farthest_extent(const ResolvedPattern& pattern, const Chain& chain);
 
-// Cells per element, sorted by cell, each once. Threads share the elements; the result does not depend on them.
+// Cells per element, sorted by cell, each once. Threads share the elements; the result does not depend on
+// them.
 std::vector<std::vector<Hit>> find_hits(const Frame& frame, const Chain& chain, int threads);
 
 // Lists, levels, bounds, flags and skip from the hits.

@@ -36,13 +36,18 @@ void finish(Shape& shape) {
 class Outline {
   public:
     Outline(const ResolvedPattern& pattern, const ResolvedElement& element, Joints joints, double piece)
-        : element_(element.element), style_(pattern.styles[element.style]), piece_(piece),
+        : element_(element.element),
+          style_(pattern.styles[element.style]),
+          piece_(piece),
           extent_(extent_of(pattern.profiles[style_.profile])) {
         // A relative growth far below the promised thousandth covers rounding.
-        grow_ = 1e-7 * (extent_.high - extent_.low) + 1e-12 * (std::abs(element_.p0.x) + std::abs(element_.p0.y));
+        grow_ =
+            1e-7 * (extent_.high - extent_.low) + 1e-12 * (std::abs(element_.p0.x) + std::abs(element_.p0.y));
         add_body(0.0, 1.0, 0);
-        add_end(element.start, element_.p0, curve::tangent(element_, 0.0), -1.0, element_.width0, element_.height0, joints.start);
-        add_end(element.end, element_.p2, curve::tangent(element_, 1.0), 1.0, element_.width1, element_.height1, joints.end);
+        add_end(element.start, element_.p0, curve::tangent(element_, 0.0), -1.0, element_.width0,
+                element_.height0, joints.start);
+        add_end(element.end, element_.p2, curve::tangent(element_, 1.0), 1.0, element_.width1,
+                element_.height1, joints.end);
     }
 
     std::vector<Shape> take() { return std::move(shapes_); }
@@ -51,13 +56,15 @@ class Outline {
     double width_at(double s) const { return element_.width0 + (element_.width1 - element_.width0) * s; }
     double height_at(double s) const { return element_.height0 + (element_.height1 - element_.height0) * s; }
 
-    // Halves the arc until a piece is short, turns little and runs at nearly even speed: then its strip lies within the
-    // quadrilateral of its four corners, grown by the chord's sag and by what the normals' arc leaves their chord.
+    // Halves the arc until a piece is short, turns little and runs at nearly even speed: then its strip lies
+    // within the quadrilateral of its four corners, grown by the chord's sag and by what the normals' arc
+    // leaves their chord.
     void add_body(double s0, double s1, int depth) {
         const Vec2 a = curve::point(element_, s0), b = curve::point(element_, s1);
         const Vec2 ta = curve::tangent(element_, s0), tb = curve::tangent(element_, s1);
         const double turn = std::atan2(std::abs(cross(ta, tb)), dot(ta, tb));
-        const double speed_a = length(curve::derivative(element_, s0)), speed_b = length(curve::derivative(element_, s1));
+        const double speed_a = length(curve::derivative(element_, s0)),
+                     speed_b = length(curve::derivative(element_, s1));
         const bool even = std::max(speed_a, speed_b) <= 1.2 * std::min(speed_a, speed_b) || turn < 1e-6;
         if ((length(b - a) > piece_ || turn > 0.06 || !even) && depth < 12) {
             const double middle = 0.5 * (s0 + s1);
@@ -69,20 +76,25 @@ class Outline {
         const double reach = std::max(std::abs(extent_.low), std::abs(extent_.high)) * std::max(w0, w1);
         const double span = s1 - s0;
         Shape shape;
-        shape.sag = element_.kind == ElementKind::line ? 0.0
-                                                       : 0.25 * span * span * length(element_.p0 - 2.0 * element_.p1 + element_.p2);
+        shape.sag = element_.kind == ElementKind::line
+                        ? 0.0
+                        : 0.25 * span * span * length(element_.p0 - 2.0 * element_.p1 + element_.p2);
         shape.grow = grow_ + shape.sag + reach * (0.5 * turn * turn + (even ? 0.05 : 1.0) * turn) +
-                     (even && element_.kind == ElementKind::line ? 0.0 : 0.1 * reach * std::abs(w1 - w0) / std::max({w0, w1, 1e-9}));
+                     (even && element_.kind == ElementKind::line
+                          ? 0.0
+                          : 0.1 * reach * std::abs(w1 - w0) / std::max({w0, w1, 1e-9}));
         const Vec2 na = normal_of(ta), nb = normal_of(tb);
-        shape.corners = {a + na * (extent_.low * w0), b + nb * (extent_.low * w1), b + nb * (extent_.high * w1),
-                         a + na * (extent_.high * w0)};
+        shape.corners = {a + na * (extent_.low * w0), b + nb * (extent_.low * w1),
+                         b + nb * (extent_.high * w1), a + na * (extent_.high * w0)};
         shape.count = 4;
         shape.body = true;
         shape.origin = a;
         shape.normal = normal_of(unit(b - a));
-        shape.blur = grow_ + shape.sag + 0.01 * reach * (turn > 0.0 ? 1.0 : 0.0) + (turn > 0.0 ? shape.grow : 0.0);
+        shape.blur =
+            grow_ + shape.sag + 0.01 * reach * (turn > 0.0 ? 1.0 : 0.0) + (turn > 0.0 ? shape.grow : 0.0);
         shape.width_low = std::min(w0, w1), shape.width_high = std::max(w0, w1);
-        shape.height_low = std::min(height_at(s0), height_at(s1)), shape.height_high = std::max(height_at(s0), height_at(s1));
+        shape.height_low = std::min(height_at(s0), height_at(s1)),
+        shape.height_high = std::max(height_at(s0), height_at(s1));
         shape.path_line = style_.step;
         shape.chord[0] = a, shape.chord[1] = b;
         finish(shape);
@@ -101,7 +113,8 @@ class Outline {
     }
 
     // What an end lets act beyond its normal. `outward` is +1 at the end, -1 at the start.
-    void add_end(const ElementEnd& end, Vec2 at, Vec2 tangent, double outward, double width, double height, bool joint) {
+    void add_end(const ElementEnd& end, Vec2 at, Vec2 tangent, double outward, double width, double height,
+                 bool joint) {
         const Vec2 out = tangent * outward, normal = normal_of(tangent);
         const double low = extent_.low * width, high = extent_.high * width;
         // The cut across the strip itself: a decoder has to look at the end wherever this is seen.
@@ -138,7 +151,8 @@ class Outline {
     void add_cap(const Side& side, double cut) {
         const double r = std::abs(side.far);
         const Vec2 across = side.normal * side.far, ahead = side.out * r;
-        add_polygon({side.at, side.at + across, side.at + across + ahead * cut, side.at + across * cut + ahead, side.at + ahead},
+        add_polygon({side.at, side.at + across, side.at + across + ahead * cut,
+                     side.at + across * cut + ahead, side.at + ahead},
                     side.width, side.height, side.end_zone);
     }
 
@@ -155,14 +169,17 @@ class Outline {
                     side.width, side.height, side.end_zone);
     }
 
-    // Bevel and round: between the normal and the clip line, no farther from the vertex than the profile reaches.
+    // Bevel and round: between the normal and the clip line, no farther from the vertex than the profile
+    // reaches.
     void add_fan(const ElementEnd& end, const Side& side) {
         const Vec2 outer = side.normal * (side.far > 0.0 ? 1.0 : -1.0);
         Vec2 middle = {std::cos(end.clip_angle), std::sin(end.clip_angle)};
         if (dot(middle, outer) < 0.0) middle = -middle;
         const double r = std::abs(side.far), half = std::acos(std::clamp(dot(middle, outer), -1.0, 1.0));
-        add_polygon({side.at, side.at + outer * r, side.at + unit(outer + unit(outer + middle)) * (r / std::cos(0.25 * half)),
-                     side.at + unit(middle + unit(outer + middle)) * (r / std::cos(0.25 * half)), side.at + middle * r},
+        add_polygon({side.at, side.at + outer * r,
+                     side.at + unit(outer + unit(outer + middle)) * (r / std::cos(0.25 * half)),
+                     side.at + unit(middle + unit(outer + middle)) * (r / std::cos(0.25 * half)),
+                     side.at + middle * r},
                     side.width, side.height, side.end_zone);
     }
 
@@ -186,28 +203,32 @@ bool separated(const Vec2* corners, int count, double grow, const Box& r) {
             const double t = dot(corners[k], axis);
             low = std::min(low, t), high = std::max(high, t);
         }
-        const double x0 = axis.x * r.low.x, x1 = axis.x * r.high.x, y0 = axis.y * r.low.y, y1 = axis.y * r.high.y;
-        if (std::min(x0, x1) + std::min(y0, y1) > high + grow || std::max(x0, x1) + std::max(y0, y1) < low - grow) return true;
+        const double x0 = axis.x * r.low.x, x1 = axis.x * r.high.x, y0 = axis.y * r.low.y,
+                     y1 = axis.y * r.high.y;
+        if (std::min(x0, x1) + std::min(y0, y1) > high + grow ||
+            std::max(x0, x1) + std::max(y0, y1) < low - grow)
+            return true;
     }
     return false;
 }
 
 }  // namespace
 
-std::vector<Shape> shapes_of(const ResolvedPattern& pattern, const ResolvedElement& element, Joints joints, double piece) {
+std::vector<Shape> shapes_of(const ResolvedPattern& pattern, const ResolvedElement& element, Joints joints,
+                             double piece) {
     return Outline(pattern, element, joints, piece).take();
 }
 
 bool meets(const Shape& shape, const Box& rectangle) {
-    if (shape.box.low.x > rectangle.high.x || shape.box.low.y > rectangle.high.y || shape.box.high.x < rectangle.low.x ||
-        shape.box.high.y < rectangle.low.y)
+    if (shape.box.low.x > rectangle.high.x || shape.box.low.y > rectangle.high.y ||
+        shape.box.high.x < rectangle.low.x || shape.box.high.y < rectangle.low.y)
         return false;
     return !separated(shape.corners.data(), shape.count, shape.grow, rectangle);
 }
 
 bool segment_meets(Vec2 a, Vec2 b, double grow, const Box& r) {
-    if (std::min(a.x, b.x) - grow > r.high.x || std::min(a.y, b.y) - grow > r.high.y || std::max(a.x, b.x) + grow < r.low.x ||
-        std::max(a.y, b.y) + grow < r.low.y)
+    if (std::min(a.x, b.x) - grow > r.high.x || std::min(a.y, b.y) - grow > r.high.y ||
+        std::max(a.x, b.x) + grow < r.low.x || std::max(a.y, b.y) + grow < r.low.y)
         return false;
     const Vec2 corners[2] = {a, b};
     return !separated(corners, 2, grow, r);
@@ -219,7 +240,9 @@ HeightRange profile_range(const ResolvedProfile& profile, double b_low, double b
         const ProfilePoint p = profile.points[i], q = profile.points[i + 1];
         const double low = std::max(b_low, std::min(p.b, q.b)), high = std::min(b_high, std::max(p.b, q.b));
         if (low > high) continue;
-        const auto at = [&](double b) { return p.h + (q.h - p.h) * std::clamp((b - p.b) / (q.b - p.b), 0.0, 1.0); };
+        const auto at = [&](double b) {
+            return p.h + (q.h - p.h) * std::clamp((b - p.b) / (q.b - p.b), 0.0, 1.0);
+        };
         const double h0 = p.b == q.b ? p.h : at(low), h1 = p.b == q.b ? q.h : at(high);
         range.high = std::max({range.high, h0, h1});
         if (profile.internal_mask >> i & 1u) range.low = std::min({range.low, h0, h1});
@@ -232,15 +255,18 @@ HeightRange heights_in(const Shape& shape, const ResolvedProfile& profile, const
     if (shape.body) {
         const Vec2 n = shape.normal;
         const double at = dot(shape.origin, n);
-        low = std::min(n.x * r.low.x, n.x * r.high.x) + std::min(n.y * r.low.y, n.y * r.high.y) - at - shape.blur;
-        high = std::max(n.x * r.low.x, n.x * r.high.x) + std::max(n.y * r.low.y, n.y * r.high.y) - at + shape.blur;
+        low = std::min(n.x * r.low.x, n.x * r.high.x) + std::min(n.y * r.low.y, n.y * r.high.y) - at -
+              shape.blur;
+        high = std::max(n.x * r.low.x, n.x * r.high.x) + std::max(n.y * r.low.y, n.y * r.high.y) - at +
+               shape.blur;
         // Offsets count in width scales; the smaller scale makes them larger.
         const double tiny = 1e-9;
         low = std::min(low / std::max(shape.width_low, tiny), low / std::max(shape.width_high, tiny));
         high = std::max(high / std::max(shape.width_low, tiny), high / std::max(shape.width_high, tiny));
     }
     HeightRange range = profile_range(profile, low, high);
-    if (range.high > -1e299) range.high = std::max(range.high * shape.height_low, range.high * shape.height_high);
+    if (range.high > -1e299)
+        range.high = std::max(range.high * shape.height_low, range.high * shape.height_high);
     if (range.low < 1e299) range.low = std::min(range.low * shape.height_low, range.low * shape.height_high);
     return range;
 }

@@ -9,14 +9,16 @@
 
 namespace burin::gridding {
 
-// A convex polygon grown by `grow` that contains a part of where an element acts, with the heights possible there.
+// A convex polygon grown by `grow` that contains a part of where an element acts, with the heights possible
+// there.
 struct Shape {
     std::array<Vec2, 5> corners;
     int count = 0;
     double grow = 0.0;
     Box box;  // of the grown polygon
 
-    // Body parts: b / width scale of a point lies within (p - origin).normal, widened by `blur`, over [width_low, width_high].
+    // Body parts: b / width scale of a point lies within (p - origin).normal, widened by `blur`, over
+    // [width_low, width_high].
     bool body = false;
     Vec2 origin, normal;
     double blur = 0.0, width_low = 1.0, width_high = 1.0;
@@ -34,17 +36,19 @@ struct Joints {
     bool start = false, end = false;
 };
 
-// Polygons of one element in its own place; bodies are cut to about `piece` metres so that their boxes stay tight.
-// Conservative, and exact to about a thousandth of the profile's width. Cost: length / piece + turning / 0.06.
-std::vector<Shape> shapes_of(const ResolvedPattern& pattern, const ResolvedElement& element, Joints joints, double piece);
+// Polygons of one element in its own place; bodies are cut to about `piece` metres so that their boxes stay
+// tight. Conservative, and exact to about a thousandth of the profile's width. Cost: length / piece + turning
+// / 0.06.
+std::vector<Shape> shapes_of(const ResolvedPattern& pattern, const ResolvedElement& element, Joints joints,
+                             double piece);
 
 // Whether the grown polygon meets the rectangle.
 bool meets(const Shape& shape, const Box& rectangle);
 // Whether the segment, grown by `grow`, meets the rectangle.
 bool segment_meets(Vec2 a, Vec2 b, double grow, const Box& rectangle);
 
-// Height range of a facet set over an interval of profile offsets. `low` counts internal facets only; an empty range is
-// low > high.
+// Height range of a facet set over an interval of profile offsets. `low` counts internal facets only; an
+// empty range is low > high.
 struct HeightRange {
     double low = 1e300, high = -1e300;
 };

@@ -10,7 +10,8 @@ namespace {
 
 using namespace resolving;
 
-// Takes the paths named in errors out; those that ended on them may be in error then, so the caller starts again.
+// Takes the paths named in errors out; those that ended on them may be in error then, so the caller starts
+// again.
 std::vector<WorkPath> without(std::vector<WorkPath> paths, const std::vector<PathError>& errors) {
     std::vector<std::uint32_t> bad;
     for (const PathError& error : errors) bad.push_back(static_cast<std::uint32_t>(error.path));
@@ -24,8 +25,10 @@ std::vector<WorkPath> without(std::vector<WorkPath> paths, const std::vector<Pat
 // Errors name paths by their place in `work`; from here on by their place in the pattern, each once.
 void name_by_source(const Work& work, std::vector<PathError>& errors) {
     for (PathError& error : errors) error.path = work.paths[error.path].source;
-    std::stable_sort(errors.begin(), errors.end(), [](const PathError& a, const PathError& b) { return a.path < b.path; });
-    errors.erase(std::unique(errors.begin(), errors.end(), [](const PathError& a, const PathError& b) { return a.path == b.path; }),
+    std::stable_sort(errors.begin(), errors.end(),
+                     [](const PathError& a, const PathError& b) { return a.path < b.path; });
+    errors.erase(std::unique(errors.begin(), errors.end(),
+                             [](const PathError& a, const PathError& b) { return a.path == b.path; }),
                  errors.end());
 }
 

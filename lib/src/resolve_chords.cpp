@@ -17,7 +17,8 @@ using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
 int orientation(Vec2 a, Vec2 b, Vec2 c) {
-    return CGAL::orientation(Filtered::Point_2(a.x, a.y), Filtered::Point_2(b.x, b.y), Filtered::Point_2(c.x, c.y));
+    return CGAL::orientation(Filtered::Point_2(a.x, a.y), Filtered::Point_2(b.x, b.y),
+                             Filtered::Point_2(c.x, c.y));
 }
 
 int sign(double v) { return v > 0.0 ? 1 : v < 0.0 ? -1 : 0; }
@@ -38,7 +39,8 @@ int side_of_fixed(Vec2 a, Vec2 b, Vec2 c) {
 }
 
 bool cross_properly(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-    return side_of_moved(a, b, c) != side_of_moved(a, b, d) && side_of_fixed(c, d, a) != side_of_fixed(c, d, b);
+    return side_of_moved(a, b, c) != side_of_moved(a, b, d) &&
+           side_of_fixed(c, d, a) != side_of_fixed(c, d, b);
 }
 
 // The crossing point, constructed exactly and rounded once; for chords that only touch, a shared end.
@@ -47,7 +49,8 @@ Vec2 crossing_point(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     const Exact::Segment_2 second(Exact::Point_2(c.x, c.y), Exact::Point_2(d.x, d.y));
     const auto meeting = CGAL::intersection(first, second);
     if (meeting) {
-        if (const auto* p = boost::get<Exact::Point_2>(&*meeting)) return {CGAL::to_double(p->x()), CGAL::to_double(p->y())};
+        if (const auto* p = boost::get<Exact::Point_2>(&*meeting))
+            return {CGAL::to_double(p->x()), CGAL::to_double(p->y())};
         if (const auto* s = boost::get<Exact::Segment_2>(&*meeting))
             return {0.5 * CGAL::to_double(s->source().x() + s->target().x()),
                     0.5 * CGAL::to_double(s->source().y() + s->target().y())};
@@ -85,8 +88,10 @@ ChordIndex::ChordIndex(std::vector<Chord> chords, Vec2 size, bool repeat)
 
 void ChordIndex::size_buckets(Box box) {
     origin_ = box.low;
-    const Vec2 extent = {std::max(box.high.x - box.low.x, 1e-9 * size_.x), std::max(box.high.y - box.low.y, 1e-9 * size_.y)};
-    // About one chord per bucket; long chords among short ones pass many buckets, so the mean length bounds them below.
+    const Vec2 extent = {std::max(box.high.x - box.low.x, 1e-9 * size_.x),
+                         std::max(box.high.y - box.low.y, 1e-9 * size_.y)};
+    // About one chord per bucket; long chords among short ones pass many buckets, so the mean length bounds
+    // them below.
     double total = 0.0;
     for (const Chord& chord : chords_) total += length(chord.b - chord.a);
     const double count = std::max<double>(1.0, static_cast<double>(chords_.size()));
@@ -119,7 +124,8 @@ bool ChordIndex::place(Bucket bucket, std::size_t& slot, Shift& tile) const {
 }
 
 // Visits the buckets a segment passes, a little grown so that rounding cannot lose one.
-template <typename Visit> void ChordIndex::walk(Vec2 a, Vec2 b, Visit visit) const {
+template <typename Visit>
+void ChordIndex::walk(Vec2 a, Vec2 b, Visit visit) const {
     if (a.y > b.y) std::swap(a, b);
     const Vec2 pad = {1e-9 * side_.x + 1e-12 * std::abs(a.x), 1e-9 * side_.y + 1e-12 * std::abs(a.y)};
     const int first_row = bucket_at(a - pad).y, last_row = bucket_at(b + pad).y;
@@ -141,7 +147,9 @@ void ChordIndex::fill() {
     std::size_t slot = 0;
     Shift tile;
     for (const Chord& chord : chords_)
-        walk(chord.a, chord.b, [&](Bucket bucket) { if (place(bucket, slot, tile)) ++first_[slot + 1]; });
+        walk(chord.a, chord.b, [&](Bucket bucket) {
+            if (place(bucket, slot, tile)) ++first_[slot + 1];
+        });
     for (std::size_t i = 0; i < count; ++i) first_[i + 1] += first_[i];
     entries_.resize(first_[count]);
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
@@ -182,7 +190,8 @@ void ChordIndex::visit_rings(Vec2 p, const std::function<double(std::uint32_t, S
     const double side = std::min(side_.x, side_.y);
     std::size_t slot = 0;
     Shift tile;
-    // In a repeating plane a ring of one tile and a half has seen a copy of everything; in a clamped one p may lie outside.
+    // In a repeating plane a ring of one tile and a half has seen a copy of everything; in a clamped one p
+    // may lie outside.
     const int reach_x = std::max(std::abs(centre.x), std::abs(centre.x - cols_)) + 1;
     const int reach_y = std::max(std::abs(centre.y), std::abs(centre.y - rows_)) + 1;
     const int last = repeat_ ? 2 * std::max(cols_, rows_) + 2 : std::max(reach_x, reach_y);
@@ -206,19 +215,24 @@ void ChordIndex::visit_rings(Vec2 p, const std::function<double(std::uint32_t, S
     }
 }
 
-std::vector<ChordCrossing> find_crossings(const ChordIndex& index,
-                                          const std::function<bool(const Chord&, const Chord&, Shift)>& wanted) {
+std::vector<ChordCrossing> find_crossings(
+    const ChordIndex& index, const std::function<bool(const Chord&, const Chord&, Shift)>& wanted) {
     std::vector<ChordCrossing> found;
     index.visit_pairs([&](std::uint32_t first, std::uint32_t second, Shift shift) {
         const Chord &one = index.chords()[first], &two = index.chords()[second];
         const Vec2 by = shift * index.size();
         const Vec2 c = two.a + by, d = two.b + by;
-        if (!boxes_meet(one.a, one.b, c, d) || !wanted(one, two, shift) || !cross_properly(one.a, one.b, c, d)) return;
+        if (!boxes_meet(one.a, one.b, c, d) || !wanted(one, two, shift) ||
+            !cross_properly(one.a, one.b, c, d))
+            return;
         found.push_back({first, second, shift, {}});
     });
-    const auto key = [](const ChordCrossing& x) { return std::tuple(x.first, x.second, x.shift.x, x.shift.y); };
+    const auto key = [](const ChordCrossing& x) {
+        return std::tuple(x.first, x.second, x.shift.x, x.shift.y);
+    };
     std::sort(found.begin(), found.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    found.erase(std::unique(found.begin(), found.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+    found.erase(std::unique(found.begin(), found.end(),
+                            [&](const auto& a, const auto& b) { return key(a) == key(b); }),
                 found.end());
     for (ChordCrossing& crossing : found) {
         const Chord &one = index.chords()[crossing.first], &two = index.chords()[crossing.second];

@@ -13,7 +13,7 @@ namespace burin::resolving {
 // A segment with what it stands for.
 struct Chord {
     Vec2 a, b;
-    double s0 = 0.0, s1 = 1.0;    // parameters on the element
+    double s0 = 0.0, s1 = 1.0;  // parameters on the element
     std::uint32_t path = 0, element = 0;
 };
 
@@ -34,15 +34,16 @@ class ChordIndex {
     const std::vector<Chord>& chords() const { return chords_; }
     Vec2 size() const { return size_; }
 
-    // Calls visit(chord, shift) for every copy (moved by shift * size) that passes a bucket of the box; a copy may
-    // come more than once.
+    // Calls visit(chord, shift) for every copy (moved by shift * size) that passes a bucket of the box; a
+    // copy may come more than once.
     void visit_box(Box box, const std::function<void(std::uint32_t, Shift)>& visit) const;
 
-    // Calls visit for every pair of copies that share a bucket, the first unmoved, first <= second. May repeat.
+    // Calls visit for every pair of copies that share a bucket, the first unmoved, first <= second. May
+    // repeat.
     void visit_pairs(const std::function<void(std::uint32_t, std::uint32_t, Shift)>& visit) const;
 
-    // Copies in order of growing distance from p, ring by ring of buckets, until visit has returned a distance that no
-    // later ring can beat. visit returns the best distance so far.
+    // Copies in order of growing distance from p, ring by ring of buckets, until visit has returned a
+    // distance that no later ring can beat. visit returns the best distance so far.
     void visit_rings(Vec2 p, const std::function<double(std::uint32_t, Shift)>& visit) const;
 
   private:
@@ -55,7 +56,8 @@ class ChordIndex {
     };
     void fill();
     void size_buckets(Box box);
-    template <typename Visit> void walk(Vec2 a, Vec2 b, Visit visit) const;
+    template <typename Visit>
+    void walk(Vec2 a, Vec2 b, Visit visit) const;
     bool place(Bucket bucket, std::size_t& slot, Shift& tile) const;
     Bucket bucket_at(Vec2 p) const;
 
@@ -76,11 +78,11 @@ struct ChordCrossing {
     Vec2 position;
 };
 
-// All crossings of chords for which `wanted(first, second, shift)` holds, sorted. Decided exactly: the second path is
-// thought moved by an infinitesimal vector, so that contacts at vertices count as crossing where the chains change
-// sides and as an even number of crossings where they touch.
-std::vector<ChordCrossing> find_crossings(const ChordIndex& index,
-                                          const std::function<bool(const Chord&, const Chord&, Shift)>& wanted);
+// All crossings of chords for which `wanted(first, second, shift)` holds, sorted. Decided exactly: the second
+// path is thought moved by an infinitesimal vector, so that contacts at vertices count as crossing where the
+// chains change sides and as an even number of crossings where they touch.
+std::vector<ChordCrossing> find_crossings(
+    const ChordIndex& index, const std::function<bool(const Chord&, const Chord&, Shift)>& wanted);
 
 // Distance from p to a segment, and the parameter there, [0, 1].
 double segment_distance(Vec2 a, Vec2 b, Vec2 p, double& along);

@@ -43,12 +43,14 @@ ArcCrossing refine(const Work& work, const ChordIndex& index, const ChordCrossin
     return crossing;
 }
 
-// Paths that were joined at an end meet there; what the chords do within the snap distance of it is no crossing.
+// Paths that were joined at an end meet there; what the chords do within the snap distance of it is no
+// crossing.
 bool near_attached_end(const Work& work, const WorkPath& path, const std::vector<int>& cluster_size, Vec2 p) {
     if (path.closed) return false;
     for (int which = 0; which < 2; ++which) {
         const PathEnd& end = path.end[which];
-        const bool attached = end.on_path || end.on_border || (end.cluster >= 0 && cluster_size[end.cluster] > 1);
+        const bool attached =
+            end.on_path || end.on_border || (end.cluster >= 0 && cluster_size[end.cluster] > 1);
         const Vec2 at = which == 0 ? path.elements.front().p0 : path.elements.back().p2;
         if (attached && length(copy_near(work, at, p) - p) <= 2.0 * (work.snap + work.tolerance)) return true;
     }
@@ -104,7 +106,8 @@ std::vector<ArcCrossing> without_touches(const Work& work, const std::vector<Arc
     std::vector<std::size_t> order(crossings.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::pair(crossings[a].path[0], crossings[a].path[1]) < std::pair(crossings[b].path[0], crossings[b].path[1]);
+        return std::pair(crossings[a].path[0], crossings[a].path[1]) <
+               std::pair(crossings[b].path[0], crossings[b].path[1]);
     });
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (used[order[i]]) continue;
@@ -113,7 +116,8 @@ std::vector<ArcCrossing> without_touches(const Work& work, const std::vector<Arc
         for (std::size_t k = i; k < order.size(); ++k) {
             const ArcCrossing& other = crossings[order[k]];
             if (other.path[0] != first.path[0] || other.path[1] != first.path[1]) break;
-            if (used[order[k]] || length(copy_near(work, other.position, first.position) - first.position) > 0.5 * work.snap + 1e-12)
+            if (used[order[k]] || length(copy_near(work, other.position, first.position) - first.position) >
+                                      0.5 * work.snap + 1e-12)
                 continue;
             used[order[k]] = 1;
             ++count;
@@ -125,6 +129,8 @@ std::vector<ArcCrossing> without_touches(const Work& work, const std::vector<Arc
 
 }  // namespace
 
-std::vector<ArcCrossing> find_arc_crossings(const Work& work) { return without_touches(work, all_crossings(work)); }
+std::vector<ArcCrossing> find_arc_crossings(const Work& work) {
+    return without_touches(work, all_crossings(work));
+}
 
 }  // namespace burin::resolving

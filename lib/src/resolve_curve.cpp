@@ -32,7 +32,9 @@ Element part(const Element& element, double s0, double s1) {
         piece.p1 = element.p0 * ((1.0 - s0) * (1.0 - s1)) + element.p1 * (s0 * (1.0 - s1) + s1 * (1.0 - s0)) +
                    element.p2 * (s0 * s1);
     }
-    const auto scale = [](double a, double b, double s) { return s <= 0.0 ? a : s >= 1.0 ? b : a + (b - a) * s; };
+    const auto scale = [](double a, double b, double s) {
+        return s <= 0.0 ? a : s >= 1.0 ? b : a + (b - a) * s;
+    };
     piece.width0 = scale(element.width0, element.width1, s0);
     piece.width1 = scale(element.width0, element.width1, s1);
     piece.height0 = scale(element.height0, element.height1, s0);
@@ -54,8 +56,12 @@ double nearest(const Element& element, Vec2 p) {
         const double dd = dot(d, d);
         return dd > 0.0 ? std::clamp(dot(p - element.p0, d) / dd, 0.0, 1.0) : 0.0;
     }
-    // The squared distance is a quartic with at most two minima: sample, then polish the best samples by Newton.
-    const auto gap = [&](double s) { const Vec2 r = point(element, s) - p; return dot(r, r); };
+    // The squared distance is a quartic with at most two minima: sample, then polish the best samples by
+    // Newton.
+    const auto gap = [&](double s) {
+        const Vec2 r = point(element, s) - p;
+        return dot(r, r);
+    };
     const Vec2 second = 2.0 * (element.p0 - 2.0 * element.p1 + element.p2);
     constexpr int kSamples = 16;
     double best = 0.0, best_gap = gap(0.0);
@@ -90,9 +96,10 @@ Box control_box(const Element& element) {
 double arc_length(const Element& element) {
     if (element.kind == ElementKind::line) return length(element.p2 - element.p0);
     // Gauss-Legendre, five points, on eight equal parts.
-    constexpr double kNode[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831, 0.9061798459386640};
-    constexpr double kWeight[5] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
-                                   0.2369268850561891};
+    constexpr double kNode[5] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
+                                 0.9061798459386640};
+    constexpr double kWeight[5] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
+                                   0.4786286704993665, 0.2369268850561891};
     double sum = 0.0;
     for (int i = 0; i < 8; ++i)
         for (int k = 0; k < 5; ++k)

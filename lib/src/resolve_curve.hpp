@@ -1,5 +1,5 @@
-// Lines and quadratic Béziers of the resolve and grid stages: points, tangents, parts, nearest points, flattening.
-// Private to lib. The truth has its own formulas on purpose: it judges what is computed here.
+// Lines and quadratic Béziers of the resolve and grid stages: points, tangents, parts, nearest points,
+// flattening. Private to lib. The truth has its own formulas on purpose: it judges what is computed here.
 #pragma once
 
 #include <vector>

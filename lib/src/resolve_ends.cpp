@@ -64,15 +64,18 @@ void lengthen_end_elements(Work& work) {
     work.paths = std::move(kept);
 }
 
-// Clamped maps: an end on the border is moved exactly onto it and runs along it; one beyond it needs no treatment.
+// Clamped maps: an end on the border is moved exactly onto it and runs along it; one beyond it needs no
+// treatment.
 void attach_to_border(Work& work, const std::vector<EndKey>& ends) {
     if (work.repeats()) return;
     const Vec2 size = work.pattern.size;
     for (const EndKey& key : ends) {
         PathEnd& end = end_of(work, key);
         Vec2 p = position_of(work, key);
-        const double to_x = std::min(std::abs(p.x), std::abs(p.x - size.x)), to_y = std::min(std::abs(p.y), std::abs(p.y - size.y));
-        const bool within = p.x > -work.snap && p.y > -work.snap && p.x < size.x + work.snap && p.y < size.y + work.snap;
+        const double to_x = std::min(std::abs(p.x), std::abs(p.x - size.x)),
+                     to_y = std::min(std::abs(p.y), std::abs(p.y - size.y));
+        const bool within =
+            p.x > -work.snap && p.y > -work.snap && p.x < size.x + work.snap && p.y < size.y + work.snap;
         if (within && std::min(to_x, to_y) <= work.snap) {
             if (to_x <= to_y)
                 p.x = std::abs(p.x) < std::abs(p.x - size.x) ? 0.0 : size.x, end.clip = {0.0, 1.0};
@@ -134,7 +137,8 @@ struct Foot {
     double s = 0.0;
 };
 
-// Point and tangent of the path at parameter s of an element; near a vertex inside the path the vertex itself.
+// Point and tangent of the path at parameter s of an element; near a vertex inside the path the vertex
+// itself.
 void settle_foot(const Work& work, const WorkPath& path, std::size_t element, double s, Vec2 by, Foot& foot) {
     const Element& e = path.elements[element];
     const std::size_t count = path.elements.size();
@@ -143,15 +147,17 @@ void settle_foot(const Work& work, const WorkPath& path, std::size_t element, do
     const double near = std::max(work.snap, 1e-12);
     if (length(foot.position - (e.p0 + by)) <= near && (element > 0 || path.closed)) {
         foot.position = e.p0 + by;
-        foot.tangent = unit(curve::tangent(e, 0.0) + curve::tangent(path.elements[(element + count - 1) % count], 1.0));
+        foot.tangent =
+            unit(curve::tangent(e, 0.0) + curve::tangent(path.elements[(element + count - 1) % count], 1.0));
     } else if (length(foot.position - (e.p2 + by)) <= near && (element + 1 < count || path.closed)) {
         foot.position = e.p2 + by;
-        foot.tangent = unit(curve::tangent(e, 1.0) + curve::tangent(path.elements[(element + 1) % count], 0.0));
+        foot.tangent =
+            unit(curve::tangent(e, 1.0) + curve::tangent(path.elements[(element + 1) % count], 0.0));
     }
 }
 
-// Whether p, on an element of `path`, lies where an end of that path belongs to this cluster: then it is that end, not
-// the interior. Elsewhere on the path it is interior, also when the path comes back to its own end.
+// Whether p, on an element of `path`, lies where an end of that path belongs to this cluster: then it is that
+// end, not the interior. Elsewhere on the path it is interior, also when the path comes back to its own end.
 bool is_own_end(const Work& work, const WorkPath& path, int cluster, std::size_t element, Vec2 p) {
     if (path.closed) return false;
     const std::size_t last = path.elements.size() - 1;
@@ -189,7 +195,8 @@ Foot foot_of_cluster(const Work& work, const ChordIndex& index, const std::vecto
         foot.path = chord.path, foot.element = chord.element, foot.s = s;
         if (foot.distance > reach || is_own_end(work, path, number, chord.element, foot.position)) return;
         // A step's line bounds what acts; it goes before a groove that passes here too.
-        if (!best.found || std::pair(!foot.step, foot.distance) < std::pair(!best.step, best.distance)) best = foot;
+        if (!best.found || std::pair(!foot.step, foot.distance) < std::pair(!best.step, best.distance))
+            best = foot;
     });
     return best;
 }
@@ -213,7 +220,8 @@ void attach_to_paths(Work& work, const std::vector<std::vector<EndKey>>& cluster
 // Direction from the end into the path.
 Vec2 outgoing(const Work& work, EndKey key) {
     const WorkPath& path = work.paths[key.path];
-    return key.which == 0 ? curve::tangent(path.elements.front(), 0.0) : -curve::tangent(path.elements.back(), 1.0);
+    return key.which == 0 ? curve::tangent(path.elements.front(), 0.0)
+                          : -curve::tangent(path.elements.back(), 1.0);
 }
 
 // Grooves that end where steps meet run up to the line the steps make there.
@@ -242,9 +250,10 @@ void find_loose_steps(const Work& work, const std::vector<EndKey>& cluster, std:
         const WorkPath& path = work.paths[key.path];
         const PathEnd& end = path.end[key.which];
         if (!path.step || steps > 1 || end.on_path || end.on_border || end.outside) continue;
-        errors.push_back({key.path, path_text(path.source, position_of(work, key)) +
-                                        " is a step path that ends nowhere; close it, or end it on a step path" +
-                                        (work.repeats() ? "" : " or on the map's border")});
+        errors.push_back(
+            {key.path, path_text(path.source, position_of(work, key)) +
+                           " is a step path that ends nowhere; close it, or end it on a step path" +
+                           (work.repeats() ? "" : " or on the map's border")});
     }
 }
 
@@ -275,8 +284,11 @@ void append_tapers(Work& work, const std::vector<std::vector<EndKey>>& clusters)
         const PathEnd& end = path.end[key.which];
         const Element& e = key.which == 0 ? path.elements.front() : path.elements.back();
         const bool faded = (key.which == 0 ? e.width0 : e.width1) == 0.0;
-        if (path.cap[key.which] != CapKind::taper || path.step || faded || end.on_path || end.on_border || end.outside) continue;
-        path.elements.insert(key.which == 0 ? path.elements.begin() : path.elements.end(), taper_element(path, key.which));
+        if (path.cap[key.which] != CapKind::taper || path.step || faded || end.on_path || end.on_border ||
+            end.outside)
+            continue;
+        path.elements.insert(key.which == 0 ? path.elements.begin() : path.elements.end(),
+                             taper_element(path, key.which));
     }
 }
 
@@ -293,7 +305,8 @@ std::vector<Chord> flatten(const Work& work, bool steps_only) {
             for (int i = 0; i < count; ++i) {
                 const double s0 = static_cast<double>(i) / count, s1 = static_cast<double>(i + 1) / count;
                 // Ends are taken as they are, so that chords of neighbours share them bit by bit.
-                chords.push_back({i == 0 ? e.p0 : curve::point(e, s0), i + 1 == count ? e.p2 : curve::point(e, s1), s0, s1,
+                chords.push_back({i == 0 ? e.p0 : curve::point(e, s0),
+                                  i + 1 == count ? e.p2 : curve::point(e, s1), s0, s1,
                                   static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(k)});
             }
         }

@@ -31,7 +31,8 @@ Ground ground_at(const Work& work, const ChordIndex& steps, Vec2 p) {
         const double across = std::abs(cross(unit(chord.b - chord.a), p - (chord.a + by)));
         // Two chords that share the nearest vertex: the one seen more from the side knows on which side p is.
         const double slack = 1e-9 * distance;
-        if (distance < ground.distance - slack || (distance <= ground.distance + slack && across > perpendicular)) {
+        if (distance < ground.distance - slack ||
+            (distance <= ground.distance + slack && across > perpendicular)) {
             ground = {side_level(work.paths[chord.path], chord, by, p), distance};
             perpendicular = across;
         }
@@ -41,7 +42,8 @@ Ground ground_at(const Work& work, const ChordIndex& steps, Vec2 p) {
 }
 
 // First chord that a ray from `origin` meets, other than `own`; chords.size() when it meets none.
-std::uint32_t first_hit(const Work& work, const ChordIndex& steps, Vec2 origin, Vec2 direction, std::uint32_t own, bool& from_left) {
+std::uint32_t first_hit(const Work& work, const ChordIndex& steps, Vec2 origin, Vec2 direction,
+                        std::uint32_t own, bool& from_left) {
     const double far = 1.5 * std::max(work.pattern.size.x, work.pattern.size.y);
     const double stride = far / 64.0;
     double best = 1e300;
@@ -50,23 +52,25 @@ std::uint32_t first_hit(const Work& work, const ChordIndex& steps, Vec2 origin, 
         const Vec2 a = origin + direction * t, b = origin + direction * (t + stride);
         steps.visit_box({{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}},
                         [&](std::uint32_t k, Shift shift) {
-            const Chord& chord = steps.chords()[k];
-            const Vec2 start = chord.a + shift * work.pattern.size, along = chord.b - chord.a;
-            const double det = cross(direction, along);
-            if ((k == own && shift == Shift{}) || det == 0.0) return;
-            const double at = cross(start - origin, along) / det, u = cross(start - origin, direction) / det;
-            if (at <= 1e-12 * far || at >= best || u < 0.0 || u > 1.0) return;
-            best = at, hit = k, from_left = cross(along, origin - start) < 0.0;
-        });
+                            const Chord& chord = steps.chords()[k];
+                            const Vec2 start = chord.a + shift * work.pattern.size, along = chord.b - chord.a;
+                            const double det = cross(direction, along);
+                            if ((k == own && shift == Shift{}) || det == 0.0) return;
+                            const double at = cross(start - origin, along) / det,
+                                         u = cross(start - origin, direction) / det;
+                            if (at <= 1e-12 * far || at >= best || u < 0.0 || u > 1.0) return;
+                            best = at, hit = k, from_left = cross(along, origin - start) < 0.0;
+                        });
     }
     return hit;
 }
 
-// Sides of step paths that face each other bound one region and get one level; heights are scaled to fit. What cannot
-// be scaled to fit is left and counted.
+// Sides of step paths that face each other bound one region and get one level; heights are scaled to fit.
+// What cannot be scaled to fit is left and counted.
 class LevelHarmony {
   public:
-    LevelHarmony(Work& work, const ChordIndex& steps) : work_(work), steps_(steps), leader_(2 * work.paths.size()) {
+    LevelHarmony(Work& work, const ChordIndex& steps)
+        : work_(work), steps_(steps), leader_(2 * work.paths.size()), uneven_(work.paths.size(), 0) {
         std::iota(leader_.begin(), leader_.end(), std::size_t{0});
     }
 
@@ -97,7 +101,14 @@ class LevelHarmony {
             const Vec2 direction = unit((right ? normal : -normal) + 0.0137 * unit(chord.b - chord.a));
             const std::uint32_t hit = first_hit(work_, steps_, origin, direction, k, from_left);
             if (hit == steps_.chords().size()) continue;
-            const std::size_t a = find(2 * chord.path + right), b = find(2 * steps_.chords()[hit].path + (from_left ? 0 : 1));
+            const std::size_t one = 2 * chord.path + static_cast<std::size_t>(right);
+            const std::size_t other = 2 * steps_.chords()[hit].path + (from_left ? 0 : 1);
+            // Far apart, one of them is wrong as a whole, or the ray slipped through: neither should follow.
+            if (std::abs(level(one) - level(other)) > work_.pattern.depth / 16.0) {
+                uneven_[chord.path] = 1;
+                continue;
+            }
+            const std::size_t a = find(one), b = find(other);
             leader_[std::max(a, b)] = std::min(a, b);
         }
     }
@@ -111,14 +122,18 @@ class LevelHarmony {
         const double equal = 1e-12 * work_.pattern.depth, alike = kLevelTolerance * work_.pattern.depth;
         std::vector<double> target(leader_.size(), 0.0);
         for (std::size_t i = 0; i < leader_.size(); ++i)
-            if (find(i) == i) target[i] = std::abs(level(i) - work_.pattern.outer_level) <= alike ? work_.pattern.outer_level : level(i);
+            if (find(i) == i)
+                target[i] = std::abs(level(i) - work_.pattern.outer_level) <= alike
+                                ? work_.pattern.outer_level
+                                : level(i);
         for (std::size_t p = 0; p < work_.paths.size(); ++p) {
             WorkPath& path = work_.paths[p];
             if (!path.step) continue;
             const double left = target[find(2 * p)], right = target[find(2 * p + 1)];
-            if (std::abs(left - path.level) <= equal && std::abs(right - path.right_level) <= equal) continue;
-            if (std::abs(left - path.level) > alike || std::abs(right - path.right_level) > alike) ++work_.stats.uneven_levels;
-            fit(path, left, right);
+            const double off = std::max(std::abs(left - path.level), std::abs(right - path.right_level));
+            if (off > alike) uneven_[p] = 1;
+            if (off > equal) fit(path, left, right);
+            work_.stats.uneven_levels += uneven_[p];
         }
     }
 
@@ -134,6 +149,7 @@ class LevelHarmony {
     Work& work_;
     const ChordIndex& steps_;
     std::vector<std::size_t> leader_;
+    std::vector<char> uneven_;  // parallel to paths
 };
 
 // The ground of a run, asked where it is farthest from any step.

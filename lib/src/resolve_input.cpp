@@ -1,4 +1,5 @@
-// Checks of pattern and options, and paths made clean: welded, without elements of length zero, arcs that turn little.
+// Checks of pattern and options, and paths made clean: welded, without elements of length zero, arcs that
+// turn little.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,7 +19,8 @@ Status check_options(const ResolveOptions& options) {
     if (!(options.snap >= 0.0 && options.snap <= 0.01))
         return option_error("snap is " + std::to_string(options.snap) + "; allowed is [0, 0.01]");
     if (!(options.smooth_angle >= 0.0 && options.smooth_angle <= 0.5))
-        return option_error("smooth_angle is " + std::to_string(options.smooth_angle) + "; allowed is [0, 0.5]");
+        return option_error("smooth_angle is " + std::to_string(options.smooth_angle) +
+                            "; allowed is [0, 0.5]");
     if (!(options.mitre_limit >= 1.0 && options.mitre_limit <= 16.0))
         return option_error("mitre_limit is " + std::to_string(options.mitre_limit) + "; allowed is [1, 16]");
     return Done{};
@@ -30,7 +32,8 @@ Status check_frame(const Pattern& pattern) {
     if (!std::isfinite(pattern.depth) || pattern.depth <= 0.0)
         return input_error("pattern depth " + std::to_string(pattern.depth) + " must be positive");
     if (!std::isfinite(pattern.base_offset) || pattern.base_offset < 0.0)
-        return input_error("pattern base_offset " + std::to_string(pattern.base_offset) + " must not be negative");
+        return input_error("pattern base_offset " + std::to_string(pattern.base_offset) +
+                           " must not be negative");
     const double slack = pattern.depth * kLevelTolerance;
     if (!(pattern.outer_level <= highest(pattern) + slack && pattern.outer_level >= lowest(pattern) - slack))
         return input_error("outer level " + std::to_string(pattern.outer_level) + " lies outside the depth");
@@ -39,7 +42,8 @@ Status check_frame(const Pattern& pattern) {
 }
 
 std::string element_text(std::size_t path, std::size_t element, Vec2 p) {
-    return "path " + std::to_string(path) + ", element " + std::to_string(element) + " at " + position_text(p);
+    return "path " + std::to_string(path) + ", element " + std::to_string(element) + " at " +
+           position_text(p);
 }
 
 bool valid_scale(double scale) { return scale >= 0.0 && scale < 4.0; }
@@ -49,7 +53,8 @@ Status check_element(const Element& e, std::size_t path, std::size_t index) {
     if (!finite(e.p0) || !finite(e.p2) || (e.kind == ElementKind::quadratic && !finite(e.p1)))
         return input_error(where + " has a point that is not finite");
     for (const double scale : {e.width0, e.width1, e.height0, e.height1})
-        if (!valid_scale(scale)) return input_error(where + " has scale " + std::to_string(scale) + "; allowed is [0, 4)");
+        if (!valid_scale(scale))
+            return input_error(where + " has scale " + std::to_string(scale) + "; allowed is [0, 4)");
     return Done{};
 }
 
@@ -62,8 +67,9 @@ Status check_heights(const Work& work, const Path& path, std::size_t index) {
     for (const ProfilePoint& p : work.profiles[path.profile].points) {
         const double h = path.level + scale * p.h;
         if (h > highest(pattern) + slack || h < lowest(pattern) - slack)
-            return input_error(path_text(index, path.elements.front().p0) + " reaches height " + std::to_string(h) +
-                               ", outside [" + std::to_string(lowest(pattern)) + ", " + std::to_string(highest(pattern)) + "]");
+            return input_error(path_text(index, path.elements.front().p0) + " reaches height " +
+                               std::to_string(h) + ", outside [" + std::to_string(lowest(pattern)) + ", " +
+                               std::to_string(highest(pattern)) + "]");
     }
     return Done{};
 }
@@ -74,23 +80,28 @@ Status check_path(const Work& work, const std::vector<Status>& profile_status, s
     const std::string name = "path " + std::to_string(index);
     if (path.elements.empty()) return input_error(name + " has no element");
     if (path.profile >= pattern.profiles.size())
-        return input_error(name + " uses profile " + std::to_string(path.profile) + " of " + std::to_string(pattern.profiles.size()));
+        return input_error(name + " uses profile " + std::to_string(path.profile) + " of " +
+                           std::to_string(pattern.profiles.size()));
     if (path.material >= pattern.materials.size())
-        return input_error(name + " uses material " + std::to_string(path.material) + " of " + std::to_string(pattern.materials.size()));
+        return input_error(name + " uses material " + std::to_string(path.material) + " of " +
+                           std::to_string(pattern.materials.size()));
     if (!profile_status[path.profile].ok()) return profile_status[path.profile].error();
     if (!std::isfinite(path.level)) return input_error(name + " has a level that is not finite");
     for (std::size_t i = 0; i < path.elements.size(); ++i) {
         if (const Status status = check_element(path.elements[i], index, i); !status.ok()) return status;
         if (i > 0 && length(path.elements[i].p0 - path.elements[i - 1].p2) > work.snap)
-            return input_error(element_text(index, i, path.elements[i].p0) + " does not start where the one before ends, at " +
+            return input_error(element_text(index, i, path.elements[i].p0) +
+                               " does not start where the one before ends, at " +
                                position_text(path.elements[i - 1].p2));
     }
     if (work.rise[path.profile] != 0.0) {
         const double scale = path.elements.front().height0;
         if (scale <= 0.0) return input_error(name + " is a step path of height scale 0");
         for (std::size_t i = 0; i < path.elements.size(); ++i)
-            if (std::abs(path.elements[i].height0 - scale) > 1e-9 || std::abs(path.elements[i].height1 - scale) > 1e-9)
-                return input_error(element_text(index, i, path.elements[i].p0) + " changes the height scale of a step path");
+            if (std::abs(path.elements[i].height0 - scale) > 1e-9 ||
+                std::abs(path.elements[i].height1 - scale) > 1e-9)
+                return input_error(element_text(index, i, path.elements[i].p0) +
+                                   " changes the height scale of a step path");
     }
     return work.options.lenient ? Status(Done{}) : check_heights(work, path, index);
 }
@@ -107,7 +118,8 @@ void append_clean(std::vector<Element>& elements, Element e) {
     if (e.kind == ElementKind::quadratic) {
         const Vec2 chord = e.p2 - e.p0, arm = e.p1 - e.p0;
         const double along = dot(arm, chord), area = std::abs(cross(arm, chord));
-        if (area <= 1e-9 * dot(chord, chord) && along >= 0.0 && along <= dot(chord, chord)) e.kind = ElementKind::line;
+        if (area <= 1e-9 * dot(chord, chord) && along >= 0.0 && along <= dot(chord, chord))
+            e.kind = ElementKind::line;
     }
     if (e.kind == ElementKind::line) {
         e.p1 = lerp(e.p0, e.p2, 0.5);
@@ -140,27 +152,33 @@ WorkPath copy_path(const Work& work, std::size_t index) {
     copy.join = path.join;
     copy.cap[0] = path.start_cap;
     copy.cap[1] = path.end_cap;
-    for (const ProfilePoint& p : work.profiles[path.profile].points) copy.reach = std::max(copy.reach, std::abs(p.b));
+    for (const ProfilePoint& p : work.profiles[path.profile].points)
+        copy.reach = std::max(copy.reach, std::abs(p.b));
     return copy;
 }
 
 // Joins elements bit by bit and drops those shorter than can carry a direction.
 Status weld_elements(Work& work, WorkPath& path, std::size_t index) {
-    const double shortest = std::max(0.01 * work.snap, 1e-9 * std::max(work.pattern.size.x, work.pattern.size.y));
+    const double shortest =
+        std::max(0.01 * work.snap, 1e-9 * std::max(work.pattern.size.x, work.pattern.size.y));
     std::vector<Element> kept;
     for (Element e : work.pattern.paths[index].elements) {
         if (!kept.empty()) e.p0 = kept.back().p2;
-        if (length(e.p2 - e.p0) <= shortest && (e.kind == ElementKind::line || length(e.p1 - e.p0) <= shortest))
+        if (length(e.p2 - e.p0) <= shortest &&
+            (e.kind == ElementKind::line || length(e.p1 - e.p0) <= shortest))
             ++work.stats.dropped_elements;
         else
             kept.push_back(e);
     }
-    if (kept.empty()) return input_error(path_text(index, work.pattern.paths[index].elements.front().p0) + " has length zero");
+    if (kept.empty())
+        return input_error(path_text(index, work.pattern.paths[index].elements.front().p0) +
+                           " has length zero");
     if (path.closed) {
         const Vec2 start = kept.front().p0, end = kept.back().p2;
         const Vec2 tiles = tiles_between(work, start, end);
         if (length(end - (start + tiles)) > std::max(work.snap, shortest))
-            return input_error(path_text(index, end) + " is closed but does not end where it starts, at " + position_text(start));
+            return input_error(path_text(index, end) + " is closed but does not end where it starts, at " +
+                               position_text(start));
         kept.back().p2 = start + tiles;
     }
     for (const Element& e : kept) append_clean(path.elements, e);
@@ -174,7 +192,8 @@ bool equal_elements(const Element& a, const Element& b) {
 
 bool equal_paths(const WorkPath& a, const WorkPath& b) {
     return a.profile == b.profile && a.material == b.material && a.level == b.level && a.closed == b.closed &&
-           std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(), equal_elements);
+           std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(),
+                      equal_elements);
 }
 
 // A path listed twice says nothing new, and two equal lines cross nowhere and everywhere.
@@ -190,7 +209,8 @@ void drop_duplicates(Work& work) {
     std::vector<char> duplicate(work.paths.size(), 0);
     for (std::size_t i = 0; i < order.size(); ++i)
         for (std::size_t k = i + 1; k < order.size() && first(order[k]) == first(order[i]); ++k)
-            if (!duplicate[order[i]] && equal_paths(work.paths[order[i]], work.paths[order[k]])) duplicate[order[k]] = 1;
+            if (!duplicate[order[i]] && equal_paths(work.paths[order[i]], work.paths[order[k]]))
+                duplicate[order[k]] = 1;
     std::vector<WorkPath> kept;
     for (std::size_t i = 0; i < work.paths.size(); ++i) {
         if (duplicate[i])
@@ -209,7 +229,9 @@ std::string position_text(Vec2 p) {
     return text;
 }
 
-std::string path_text(std::size_t index, Vec2 p) { return "path " + std::to_string(index) + " at " + position_text(p); }
+std::string path_text(std::size_t index, Vec2 p) {
+    return "path " + std::to_string(index) + " at " + position_text(p);
+}
 
 bool tolerate(Work& work, const std::string& message) {
     if (!work.options.lenient) return false;
@@ -252,7 +274,8 @@ Status prepare(Work& work) {
         if (!profile.ok() && !work.options.lenient) return profile.error();
         profile_status.push_back(profile.ok() ? Status(Done{}) : Status(profile.error()));
         // An unused place keeps the numbering; no path with a profile in error comes through.
-        work.profiles.push_back(profile.ok() ? *profile : ResolvedProfile{{{-1e-3 * side, 0.0}, {1e-3 * side, 0.0}}, 0});
+        work.profiles.push_back(profile.ok() ? *profile
+                                             : ResolvedProfile{{{-1e-3 * side, 0.0}, {1e-3 * side, 0.0}}, 0});
         work.rise.push_back(work.profiles.back().points.back().h);
     }
     for (std::size_t i = 0; i < pattern.paths.size(); ++i) {

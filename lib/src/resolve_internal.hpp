@@ -25,11 +25,11 @@ inline constexpr double kLevelTolerance = 1.0 / 4096.0;
 
 // One end of an open path and what it meets.
 struct PathEnd {
-    int cluster = -1;      // ends with one number meet; -1 on a closed path
-    bool on_path = false;  // lies on another path's interior: `clip` is that path's tangent
-    bool on_border = false;   // clamped maps: on the border, `clip` is its direction
-    bool outside = false;     // clamped maps: beyond the border
-    bool extended = false;    // reaches beyond the step it ends on, whose line bounds it by the level
+    int cluster = -1;        // ends with one number meet; -1 on a closed path
+    bool on_path = false;    // lies on another path's interior: `clip` is that path's tangent
+    bool on_border = false;  // clamped maps: on the border, `clip` is its direction
+    bool outside = false;    // clamped maps: beyond the border
+    bool extended = false;   // reaches beyond the step it ends on, whose line bounds it by the level
     Vec2 clip;
     std::size_t target = 0, target_element = 0;  // with on_path: what it lies on
     double target_s = 0.0;
@@ -46,10 +46,10 @@ struct WorkPath {
     PathEnd end[2];
 
     std::vector<Element> elements;
-    std::vector<ElementEnd> starts, ends;   // parallel to elements, once the joints are known
-    std::vector<char> region_starts;        // parallel to elements: a step's line was crossed before this element
-    std::vector<std::vector<Vec2>> samples; // per run between steps: points that lie in its region
-    std::vector<double> levels;             // parallel to elements, once the ground is known
+    std::vector<ElementEnd> starts, ends;  // parallel to elements, once the joints are known
+    std::vector<char> region_starts;  // parallel to elements: a step's line was crossed before this element
+    std::vector<std::vector<Vec2>> samples;  // per run between steps: points that lie in its region
+    std::vector<double> levels;              // parallel to elements, once the ground is known
 };
 
 struct Work {
@@ -79,8 +79,8 @@ bool tolerate(Work& work, const std::string& message);
 // Arcs as chords, path by path in order.
 std::vector<Chord> flatten(const Work& work, bool steps_only);
 
-// Ends that meet, ends on other paths: moves them together. Ends that fade out get their taper. Bad step ends are
-// named by path index.
+// Ends that meet, ends on other paths: moves them together. Ends that fade out get their taper. Bad step ends
+// are named by path index.
 struct PathError {
     std::size_t path = 0;
     std::string message;
@@ -103,8 +103,8 @@ Vec2 tangent_at(const Work& work, const WorkPath& path, std::size_t element, dou
 // Level of every element: the ground its run between steps lies in.
 void find_levels(Work& work);
 
-// End that runs up to a line of direction `clip`. A line nearly along the element's own tangent would cut it lengthwise
-// far beyond the end; a hip ends it instead (a step's line still bounds it by the level).
+// End that runs up to a line of direction `clip`. A line nearly along the element's own tangent would cut it
+// lengthwise far beyond the end; a hip ends it instead (a step's line still bounds it by the level).
 ElementEnd clip_or_hip(Vec2 tangent, Vec2 clip);
 
 // Priority of every element end.

@@ -11,7 +11,7 @@ namespace {
 // An element end seen from its vertex.
 struct Arm {
     ElementEnd* end = nullptr;
-    Vec2 outgoing;  // unit, from the vertex into the element
+    Vec2 outgoing;         // unit, from the vertex into the element
     bool at_start = true;  // the vertex is the element's start
     JoinKind join = JoinKind::mitre;
     double angle() const { return std::atan2(outgoing.y, outgoing.x); }
@@ -27,8 +27,8 @@ void join_smoothly(Arm& a, Arm& b) {
     *a.end = *b.end = both(EndShape::clip, angle);
 }
 
-// Two arms with a free sector of more than 180 degrees between them, whose middle direction is `middle`: each gets
-// back the side that faces it, up to that direction.
+// Two arms with a free sector of more than 180 degrees between them, whose middle direction is `middle`: each
+// gets back the side that faces it, up to that direction.
 void join_corner(const ResolveOptions& options, Arm& a, Arm& b, Vec2 middle) {
     // Half the turn of the path: 0 straight on, 90 degrees a hairpin.
     const double cosine = 0.5 * length(a.outgoing - b.outgoing);
@@ -36,7 +36,8 @@ void join_corner(const ResolveOptions& options, Arm& a, Arm& b, Vec2 middle) {
     if (cosine < 0.05) return;
     CornerShape shape = CornerShape::mitre;
     if (a.join == JoinKind::round) shape = CornerShape::round;
-    if (a.join == JoinKind::bevel || (a.join == JoinKind::mitre && 1.0 / cosine > options.mitre_limit)) shape = CornerShape::bevel;
+    if (a.join == JoinKind::bevel || (a.join == JoinKind::mitre && 1.0 / cosine > options.mitre_limit))
+        shape = CornerShape::bevel;
     for (Arm* arm : {&a, &b}) {
         const Vec2 tangent = arm->at_start ? arm->outgoing : -arm->outgoing;
         const Priority side = dot(normal_of(tangent), middle) > 0.0 ? Priority::right : Priority::left;
@@ -44,14 +45,17 @@ void join_corner(const ResolveOptions& options, Arm& a, Arm& b, Vec2 middle) {
     }
 }
 
-// Arms around one vertex: the widest gap, when above 180 degrees, is a corner's outer sector; all others are inner.
+// Arms around one vertex: the widest gap, when above 180 degrees, is a corner's outer sector; all others are
+// inner.
 void join_arms(const ResolveOptions& options, std::vector<Arm>& arms) {
-    if (arms.size() == 2 && std::abs(std::atan2(cross(arms[0].outgoing, -arms[1].outgoing),
-                                                dot(arms[0].outgoing, -arms[1].outgoing))) < options.smooth_angle) {
+    if (arms.size() == 2 &&
+        std::abs(std::atan2(cross(arms[0].outgoing, -arms[1].outgoing),
+                            dot(arms[0].outgoing, -arms[1].outgoing))) < options.smooth_angle) {
         join_smoothly(arms[0], arms[1]);
         return;
     }
-    std::stable_sort(arms.begin(), arms.end(), [](const Arm& a, const Arm& b) { return a.angle() < b.angle(); });
+    std::stable_sort(arms.begin(), arms.end(),
+                     [](const Arm& a, const Arm& b) { return a.angle() < b.angle(); });
     for (std::size_t i = 0; i < arms.size(); ++i) {
         const std::size_t k = (i + 1) % arms.size();
         double gap = arms[k].angle() - arms[i].angle();
@@ -88,10 +92,16 @@ void cap_end(Work& work, WorkPath& path, int which) {
     // An end that has faded out already needs no cap.
     if ((which == 0 ? e.width0 : e.width1) == 0.0 || (which == 0 ? e.height0 : e.height1) == 0.0) return;
     switch (path.cap[which]) {
-        case CapKind::butt: break;
-        case CapKind::hip: end = both(EndShape::hip); break;
-        case CapKind::round: end = both(EndShape::round); break;
-        case CapKind::taper: break;  // has faded out
+        case CapKind::butt:
+            break;
+        case CapKind::hip:
+            end = both(EndShape::hip);
+            break;
+        case CapKind::round:
+            end = both(EndShape::round);
+            break;
+        case CapKind::taper:
+            break;  // has faded out
     }
 }
 

@@ -1,4 +1,5 @@
-// The last step: elements cut to what the grid and the texels can hold, moved into the tile, with numbered styles.
+// The last step: elements cut to what the grid and the texels can hold, moved into the tile, with numbered
+// styles.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -75,14 +76,16 @@ class Assembler {
                              path_text(path.source, path.elements[i].p0) + " acts " + std::to_string(reach) +
                                  " m to the side; in a repeating pattern it may act up to 0.4 of the tile"};
             const std::uint32_t style = style_of(path, path.levels[i]);
-            const Status status = add_pieces({path.elements[i], path.starts[i], path.ends[i]}, reach, style, path, 0);
+            const Status status =
+                add_pieces({path.elements[i], path.starts[i], path.ends[i]}, reach, style, path, 0);
             if (!status.ok()) return status;
         }
         return Done{};
     }
 
     // Halves a piece until it fits; smooth joints between.
-    Status add_pieces(const Piece& piece, double reach, std::uint32_t style, const WorkPath& path, int depth) {
+    Status add_pieces(const Piece& piece, double reach, std::uint32_t style, const WorkPath& path,
+                      int depth) {
         if (!work_.repeats() && is_outside(piece.element, reach)) return Done{};
         Element moved = piece.element;
         if (work_.repeats()) moved = curve::translated(moved, wrapped(work_, moved.p0) - moved.p0);
@@ -93,25 +96,30 @@ class Assembler {
             return Done{};
         }
         if (depth > 24)
-            return Error{ErrorCode::limit_exceeded, path_text(path.source, piece.element.p0) +
-                                                        " cannot be cut into pieces that lie within half a tile of the map"};
+            return Error{ErrorCode::limit_exceeded,
+                         path_text(path.source, piece.element.p0) +
+                             " cannot be cut into pieces that lie within half a tile of the map"};
         const Vec2 across = normal_of(curve::tangent(piece.element, 0.5));
         const ElementEnd joint{Priority::both, static_cast<std::uint8_t>(EndShape::clip), line_angle(across)};
-        const Status first = add_pieces({curve::part(piece.element, 0.0, 0.5), piece.start, joint}, reach, style, path, depth + 1);
+        const Status first = add_pieces({curve::part(piece.element, 0.0, 0.5), piece.start, joint}, reach,
+                                        style, path, depth + 1);
         if (!first.ok()) return first;
-        return add_pieces({curve::part(piece.element, 0.5, 1.0), joint, piece.end}, reach, style, path, depth + 1);
+        return add_pieces({curve::part(piece.element, 0.5, 1.0), joint, piece.end}, reach, style, path,
+                          depth + 1);
     }
 
     bool is_outside(const Element& e, double reach) const {
         const Box box = curve::control_box(e);
         const Vec2 size = work_.pattern.size;
-        return box.high.x < -reach || box.high.y < -reach || box.low.x > size.x + reach || box.low.y > size.y + reach;
+        return box.high.x < -reach || box.high.y < -reach || box.low.x > size.x + reach ||
+               box.low.y > size.y + reach;
     }
 
     bool fits_range(const Element& e) const {
         const Box box = curve::control_box(e);
         const Vec2 size = work_.pattern.size;
-        return box.low.x >= -0.5 * size.x && box.low.y >= -0.5 * size.y && box.high.x < 1.5 * size.x && box.high.y < 1.5 * size.y;
+        return box.low.x >= -0.5 * size.x && box.low.y >= -0.5 * size.y && box.high.x < 1.5 * size.x &&
+               box.high.y < 1.5 * size.y;
     }
 
     // Within range, and all of the strip nearer than 0.45 tile to the chord's midpoint.

@@ -1,4 +1,5 @@
-// Facets of a profile: which add, which cut. [2010] 5.3 and the rule of DESIGN 2 for what lies below the ground.
+// Facets of a profile: which add, which cut. [2010] 5.3 and the rule of DESIGN 2 for what lies below the
+// ground.
 #include <algorithm>
 #include <cmath>
 
@@ -33,7 +34,8 @@ Status check_points(const Profile& profile, std::size_t index, double depth) {
         if (!std::isfinite(p.b) || !std::isfinite(p.h)) return profile_error(index, "a point is not finite");
     if (!profile.facets.empty() && profile.facets.size() + 1 != points.size())
         return profile_error(index, std::to_string(profile.facets.size()) + " facet flags for " +
-                                        std::to_string(points.size()) + " points; give one fewer than points, or none");
+                                        std::to_string(points.size()) +
+                                        " points; give one fewer than points, or none");
     if (std::abs(points.front().h) > depth * kLevelTolerance)
         return profile_error(index, "the first point " + point_text(points.front()) +
                                         " is not on the ground; its height must be 0");
@@ -62,19 +64,22 @@ std::vector<Facet> split_at_path_line(const Profile& profile, bool step, double 
     return facets;
 }
 
-// Height of the ground below a facet; a vertical facet on the path line of a step stands between both and has neither.
+// Height of the ground below a facet; a vertical facet on the path line of a step stands between both and has
+// neither.
 bool ground_below(const Facet& facet, double rise, double& ground) {
     if (facet.low_b() == 0.0 && facet.high_b() == 0.0 && rise != 0.0) return false;
     ground = facet.high_b() <= 0.0 ? 0.0 : rise;
     return true;
 }
 
-// A facet that passes the ground of its side becomes two, so that the part below can cut and the part above can add.
+// A facet that passes the ground of its side becomes two, so that the part below can cut and the part above
+// can add.
 std::vector<Facet> split_at_ground(const std::vector<Facet>& facets, double rise) {
     std::vector<Facet> split;
     for (const Facet& facet : facets) {
         double ground = 0.0;
-        const bool passes = ground_below(facet, rise, ground) && (facet.from.h - ground) * (facet.to.h - ground) < 0.0;
+        const bool passes =
+            ground_below(facet, rise, ground) && (facet.from.h - ground) * (facet.to.h - ground) < 0.0;
         if (!passes || facet.given != FacetClass::automatic) {
             split.push_back(facet);
             continue;
@@ -107,7 +112,8 @@ void classify_by_ground(std::vector<Facet>& facets, double rise) {
 
 double height_at(const Facet& facet, double b) {
     return facet.from.b == facet.to.b ? std::max(facet.from.h, facet.to.h)
-                                      : facet.from.h + (facet.to.h - facet.from.h) * ((b - facet.from.b) / (facet.to.b - facet.from.b));
+                                      : facet.from.h + (facet.to.h - facet.from.h) *
+                                                           ((b - facet.from.b) / (facet.to.b - facet.from.b));
 }
 
 // A vertical ray from an internal facet must not meet the profile again: what it cuts would be ambiguous.
@@ -115,12 +121,14 @@ Status check_overhang(const std::vector<Facet>& facets, std::size_t index) {
     for (const Facet& cut : facets) {
         if (!cut.internal || cut.given != FacetClass::automatic) continue;
         for (const Facet& above : facets) {
-            const double low = std::max(cut.low_b(), above.low_b()), high = std::min(cut.high_b(), above.high_b());
+            const double low = std::max(cut.low_b(), above.low_b()),
+                         high = std::min(cut.high_b(), above.high_b());
             if (&above == &cut || high <= low) continue;
             const double middle = 0.5 * (low + high);
             if (height_at(above, middle) > height_at(cut, middle))
-                return profile_error(index, "overhangs its internal facet from " + point_text(cut.from) + " to " +
-                                                point_text(cut.to) + "; flag every facet internal or external");
+                return profile_error(index, "overhangs its internal facet from " + point_text(cut.from) +
+                                                " to " + point_text(cut.to) +
+                                                "; flag every facet internal or external");
         }
     }
     return Done{};
@@ -139,12 +147,14 @@ Result<ResolvedProfile> classify_profile(const Profile& profile, std::size_t ind
         return profile_error(index, "has no width");
     std::vector<Facet> facets = split_at_path_line(profile, step, rise);
     classify_runs(facets);
-    // A groove's external runs never leave the ground downwards; only a step's can, on the side of the other ground.
+    // A groove's external runs never leave the ground downwards; only a step's can, on the side of the other
+    // ground.
     if (step) facets = split_at_ground(facets, rise);
     classify_by_ground(facets, rise);
     if (const Status status = check_overhang(facets, index); !status.ok()) return status.error();
     if (facets.size() + 1 > BURIN_MAX_PROFILE_POINTS)
-        return profile_error(index, "has " + std::to_string(facets.size() + 1) + " points once split at the ground; " +
+        return profile_error(index, "has " + std::to_string(facets.size() + 1) +
+                                        " points once split at the ground; " +
                                         std::to_string(BURIN_MAX_PROFILE_POINTS) + " are allowed");
     ResolvedProfile resolved;
     resolved.points.push_back(facets.front().from);

@@ -16,8 +16,9 @@ using Place = double;
 
 struct Cut {
     Place at = 0.0;
-    ElementEnd end;                     // of the pieces on both sides
-    double forward = 0.0, back = 0.0;   // metres by which the piece before and the piece after reach beyond the cut
+    ElementEnd end;  // of the pieces on both sides
+    double forward = 0.0,
+           back = 0.0;  // metres by which the piece before and the piece after reach beyond the cut
 };
 
 // How a step's line passes through a groove's strip, along the groove from the crossing.
@@ -27,7 +28,8 @@ struct Passage {
 };
 
 // Follows the step from the crossing one way, until it leaves the strip.
-void follow(const WorkPath& step, std::size_t element, double s, int way, Vec2 along, Vec2 line, double half_width, Passage& passage) {
+void follow(const WorkPath& step, std::size_t element, double s, int way, Vec2 along, Vec2 line,
+            double half_width, Passage& passage) {
     const double stride = half_width / 8.0;
     const std::size_t count = step.elements.size();
     Vec2 d{0.0, 0.0};
@@ -52,7 +54,8 @@ void follow(const WorkPath& step, std::size_t element, double s, int way, Vec2 a
     passage.straight = false;
 }
 
-Passage passage_of(const WorkPath& step, std::size_t element, double s, Vec2 along, Vec2 line, double half_width) {
+Passage passage_of(const WorkPath& step, std::size_t element, double s, Vec2 along, Vec2 line,
+                   double half_width) {
     Passage passage;
     if (half_width <= 0.0) return passage;
     follow(step, element, s, 1, along, line, half_width, passage);
@@ -65,8 +68,9 @@ double half_width_of(const WorkPath& path, std::size_t element) {
     return path.reach * std::max(e.width0, e.width1);
 }
 
-// A straight step bounds the pieces by its line, as a clip. One that bends within the strip, or runs along it, bounds
-// them by the level: the pieces reach beyond it, butt-ended where their whole width lies on the other ground.
+// A straight step bounds the pieces by its line, as a clip. One that bends within the strip, or runs along
+// it, bounds them by the level: the pieces reach beyond it, butt-ended where their whole width lies on the
+// other ground.
 Cut cut_at(const Work& work, const ArcCrossing& crossing, int groove) {
     const WorkPath &path = work.paths[crossing.path[groove]], &step = work.paths[crossing.path[1 - groove]];
     const std::size_t element = crossing.element[groove], step_element = crossing.element[1 - groove];
@@ -86,7 +90,10 @@ Cut cut_at(const Work& work, const ArcCrossing& crossing, int groove) {
 class Splitter {
   public:
     Splitter(const Work& work, WorkPath& path, std::vector<Cut> cuts)
-        : work_(work), path_(path), old_(std::move(path.elements)), cuts_(std::move(cuts)),
+        : work_(work),
+          path_(path),
+          old_(std::move(path.elements)),
+          cuts_(std::move(cuts)),
           shortest_(std::max(work.snap, 1e-9 * work.pattern.size.x)) {
         path.elements.clear();
         lap_ = old_.back().p2 - old_.front().p0;
@@ -120,8 +127,8 @@ class Splitter {
         return sum + (at - static_cast<double>(element)) * lengths_[element];
     }
 
-    // Cuts closer together than the snap distance: an odd number of them is one crossing, an even one a touch. On an
-    // open path a cut at an end leaves no piece beyond.
+    // Cuts closer together than the snap distance: an odd number of them is one crossing, an even one a
+    // touch. On an open path a cut at an end leaves no piece beyond.
     void merge_cuts() {
         std::sort(cuts_.begin(), cuts_.end(), [](const Cut& a, const Cut& b) {
             return std::tuple(a.at, a.end.clip_angle) < std::tuple(b.at, b.end.clip_angle);
@@ -214,9 +221,11 @@ void extend_onto_bent_steps(const Work& work, WorkPath& path) {
         PathEnd& end = path.end[which];
         if (!end.on_path || !work.paths[end.target].step) continue;
         const std::size_t element = which == 0 ? 0 : path.elements.size() - 1;
-        const Vec2 away = which == 0 ? -curve::tangent(path.elements[element], 0.0) : curve::tangent(path.elements[element], 1.0);
+        const Vec2 away = which == 0 ? -curve::tangent(path.elements[element], 0.0)
+                                     : curve::tangent(path.elements[element], 1.0);
         const double half_width = half_width_of(path, element);
-        const Passage passage = passage_of(work.paths[end.target], end.target_element, end.target_s, away, end.clip, half_width);
+        const Passage passage =
+            passage_of(work.paths[end.target], end.target_element, end.target_s, away, end.clip, half_width);
         if (passage.straight && std::abs(cross(away, end.clip)) > 0.12) continue;
         Element more = path.elements[element];
         const Vec2 at = which == 0 ? more.p0 : more.p2;
@@ -246,7 +255,8 @@ Vec2 tangent_at(const Work& work, const WorkPath& path, std::size_t element, dou
     const Vec2 p = curve::point(e, s);
     const double near = std::max(work.snap, 1e-12);
     if (length(p - e.p0) <= near && (element > 0 || path.closed))
-        return unit(curve::tangent(e, 0.0) + curve::tangent(path.elements[(element + count - 1) % count], 1.0));
+        return unit(curve::tangent(e, 0.0) +
+                    curve::tangent(path.elements[(element + count - 1) % count], 1.0));
     if (length(p - e.p2) <= near && (element + 1 < count || path.closed))
         return unit(curve::tangent(e, 1.0) + curve::tangent(path.elements[(element + 1) % count], 0.0));
     return curve::tangent(e, s);
@@ -258,9 +268,11 @@ std::vector<PathError> split_at_steps(Work& work) {
     for (const ArcCrossing& crossing : find_arc_crossings(work)) {
         const WorkPath &a = work.paths[crossing.path[0]], &b = work.paths[crossing.path[1]];
         if (a.step && b.step) {
-            const std::size_t loser = a.elements.size() < b.elements.size() ? crossing.path[0] : crossing.path[1];
-            errors.push_back({loser, "step path " + std::to_string(a.source) + " crosses step path " + std::to_string(b.source) +
-                                         " at " + position_text(wrapped(work, crossing.position)) +
+            const std::size_t loser =
+                a.elements.size() < b.elements.size() ? crossing.path[0] : crossing.path[1];
+            errors.push_back({loser, "step path " + std::to_string(a.source) + " crosses step path " +
+                                         std::to_string(b.source) + " at " +
+                                         position_text(wrapped(work, crossing.position)) +
                                          "; step paths may only end on each other"});
             continue;
         }

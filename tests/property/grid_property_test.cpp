@@ -1,5 +1,6 @@
-// The grid against brute force: nothing that acts is missing from a cell's list, little is listed in vain, bounds hold,
-// ground follows from the cell alone, and threads change nothing. Patterns at random; a failure names the seed.
+// The grid against brute force: nothing that acts is missing from a cell's list, little is listed in vain,
+// bounds hold, ground follows from the cell alone, and threads change nothing. Patterns at random; a failure
+// names the seed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -37,17 +38,23 @@ struct Cell {
 
 Cell cell_of(const ResolvedPattern& pattern, const CellGrid& grid, int col, int row) {
     const Vec2 side = {pattern.size.x / grid.cols, pattern.size.y / grid.rows};
-    return {col, row, static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.cols) + static_cast<std::size_t>(col),
-            {(col + 0.5) * side.x, (row + 0.5) * side.y}, side};
+    return {
+        col,
+        row,
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.cols) + static_cast<std::size_t>(col),
+        {(col + 0.5) * side.x, (row + 0.5) * side.y},
+        side};
 }
 
-// What a decoder knows in a cell: the listed elements, each the one copy that grid.hpp names, and nothing else.
+// What a decoder knows in a cell: the listed elements, each the one copy that grid.hpp names, and nothing
+// else.
 ResolvedPattern decoded(const ResolvedPattern& pattern, const CellGrid& grid, const Cell& cell) {
     ResolvedPattern local = pattern;
     local.wrap = Wrap::clamp;
     local.elements.clear();
     local.outer_level = grid.level[cell.index];
-    // The margin of a cell on the border reaches over it; clamping would cut it, so everything moves one tile in.
+    // The margin of a cell on the border reaches over it; clamping would cut it, so everything moves one tile
+    // in.
     const Vec2 in = pattern.wrap == Wrap::repeat ? pattern.size : Vec2{0.0, 0.0};
     if (pattern.wrap == Wrap::repeat) local.size = pattern.size * 3.0;
     for (std::uint32_t i = grid.first_ref[cell.index]; i < grid.first_ref[cell.index + 1]; ++i) {
@@ -67,7 +74,8 @@ ResolvedPattern decoded(const ResolvedPattern& pattern, const CellGrid& grid, co
 }
 
 Vec2 arc_point(const Element& e, double s) {
-    return e.kind == ElementKind::line ? lerp(e.p0, e.p2, s) : lerp(lerp(e.p0, e.p1, s), lerp(e.p1, e.p2, s), s);
+    return e.kind == ElementKind::line ? lerp(e.p0, e.p2, s)
+                                       : lerp(lerp(e.p0, e.p1, s), lerp(e.p1, e.p2, s), s);
 }
 
 std::vector<std::uint32_t> all_of(const ResolvedPattern& pattern) {
@@ -76,8 +84,8 @@ std::vector<std::uint32_t> all_of(const ResolvedPattern& pattern) {
     return all;
 }
 
-// The rule of grid.hpp: the step whose arc is crossed last on the way from the centre to p gives the level. Arcs are
-// followed in small chords, which is why points next to an arc are not asked.
+// The rule of grid.hpp: the step whose arc is crossed last on the way from the centre to p gives the level.
+// Arcs are followed in small chords, which is why points next to an arc are not asked.
 double ground_by_way(const ResolvedPattern& local, Vec2 p, Vec2 centre, double level) {
     double last = -1.0;
     for (const ResolvedElement& e : local.elements) {
@@ -88,7 +96,8 @@ double ground_by_way(const ResolvedPattern& local, Vec2 p, Vec2 centre, double l
         constexpr int kChords = 512;
         const int chords = e.element.kind == ElementKind::line ? 1 : kChords;
         for (int i = 0; i < chords; ++i) {
-            const Vec2 a = arc_point(e.element, static_cast<double>(i) / chords), b = arc_point(e.element, (i + 1.0) / chords);
+            const Vec2 a = arc_point(e.element, static_cast<double>(i) / chords),
+                       b = arc_point(e.element, (i + 1.0) / chords);
             const double det = cross(p - centre, b - a);
             if (det == 0.0) continue;
             const double t = cross(a - centre, b - a) / det, u = cross(a - centre, p - centre) / det;
@@ -108,7 +117,8 @@ bool is_near_step(const Truth& truth, Vec2 p, double ground) {
 }
 
 // Random points of a cell's margin rectangle.
-void check_cell(const ResolvedPattern& pattern, const Truth& truth, const CellGrid& grid, const Cell& cell, Random& random, int points) {
+void check_cell(const ResolvedPattern& pattern, const Truth& truth, const CellGrid& grid, const Cell& cell,
+                Random& random, int points) {
     const ResolvedPattern local = decoded(pattern, grid, cell);
     const Truth cell_truth(local);
     const std::vector<std::uint32_t> listed = all_of(local);
@@ -116,24 +126,29 @@ void check_cell(const ResolvedPattern& pattern, const Truth& truth, const CellGr
     const double slack = 1e-9 * pattern.depth;
     for (int i = 0; i < points; ++i) {
         const double reach = 0.5 + kMargin;
-        const Vec2 p = cell.centre + Vec2{random.between(-reach, reach) * cell.side.x, random.between(-reach, reach) * cell.side.y};
-        if (pattern.wrap == Wrap::clamp && (p.x <= 0.0 || p.y <= 0.0 || p.x >= pattern.size.x || p.y >= pattern.size.y)) continue;
+        const Vec2 p = cell.centre + Vec2{random.between(-reach, reach) * cell.side.x,
+                                          random.between(-reach, reach) * cell.side.y};
+        if (pattern.wrap == Wrap::clamp &&
+            (p.x <= 0.0 || p.y <= 0.0 || p.x >= pattern.size.x || p.y >= pattern.size.y))
+            continue;
         const SurfacePoint whole = truth.surface_at(p);
         const SurfacePoint here = cell_truth.surface_at(p + in, listed, whole.ground);
-        EXPECT_NEAR(here.height, whole.height, slack) << "at (" << p.x << ", " << p.y << "), cell (" << cell.col << ", " << cell.row << ")";
+        EXPECT_NEAR(here.height, whole.height, slack)
+            << "at (" << p.x << ", " << p.y << "), cell (" << cell.col << ", " << cell.row << ")";
         EXPECT_LE(whole.height, grid.highest[cell.index] + slack);
         EXPECT_GE(whole.height, grid.lowest[cell.index] - slack);
         if (is_near_step(truth, p, whole.ground)) continue;
         const bool step = (grid.flags[cell.index] & BURIN_CELL_FLAG_STEP) != 0;
-        EXPECT_NEAR(step ? ground_by_way(local, p + in, cell.centre + in, grid.level[cell.index]) : grid.level[cell.index],
+        EXPECT_NEAR(step ? ground_by_way(local, p + in, cell.centre + in, grid.level[cell.index])
+                         : grid.level[cell.index],
                     whole.ground, slack)
             << "ground at (" << p.x << ", " << p.y << "), cell (" << cell.col << ", " << cell.row << ")";
     }
 }
 
 void check_pattern(std::uint64_t seed, Wrap wrap, double cell_size) {
-    SCOPED_TRACE("seed " + std::to_string(seed) + (wrap == Wrap::repeat ? ", repeat" : ", clamp") + ", cell size " +
-                 std::to_string(cell_size));
+    SCOPED_TRACE("seed " + std::to_string(seed) + (wrap == Wrap::repeat ? ", repeat" : ", clamp") +
+                 ", cell size " + std::to_string(cell_size));
     const ResolvedPattern pattern = resolved(seed, wrap);
     const Result<CellGrid> built = build_grid(pattern, {.cell_size = cell_size, .margin = kMargin});
     ASSERT_TRUE(built.ok()) << built.error().message;
@@ -157,8 +172,8 @@ TEST(GridProperty, ListsEverythingThatActsAndBoundsIt) {
     }
 }
 
-// Whether an element acts anywhere in a rectangle, asked on a lattice of points; the element is alone and its ground is
-// that of its own side.
+// Whether an element acts anywhere in a rectangle, asked on a lattice of points; the element is alone and its
+// ground is that of its own side.
 bool acts_in(const ResolvedPattern& pattern, std::uint32_t e, Vec2 low, Vec2 high) {
     ResolvedPattern alone = pattern;
     alone.elements = {pattern.elements[e]};
@@ -171,7 +186,8 @@ bool acts_in(const ResolvedPattern& pattern, std::uint32_t e, Vec2 low, Vec2 hig
             // A step is looked for on both sides; a groove on its own level.
             const double left = pattern.styles[alone.elements[0].style].level;
             const auto& points = pattern.profiles[pattern.styles[alone.elements[0].style].profile].points;
-            const double right = left + (points.back().h - points.front().h) * alone.elements[0].element.height0;
+            const double right =
+                left + (points.back().h - points.front().h) * alone.elements[0].element.height0;
             for (const double ground : {left, right})
                 if (truth.surface_at(p, only, ground).element != kGround) return true;
         }
@@ -205,17 +221,20 @@ TEST(GridProperty, ListsLittleInVain) {
 }
 
 bool equal_grids(const CellGrid& a, const CellGrid& b) {
-    return a.cols == b.cols && a.rows == b.rows && a.first_ref == b.first_ref && a.refs == b.refs && a.level == b.level &&
-           a.highest == b.highest && a.lowest == b.lowest && a.skip == b.skip && a.flags == b.flags;
+    return a.cols == b.cols && a.rows == b.rows && a.first_ref == b.first_ref && a.refs == b.refs &&
+           a.level == b.level && a.highest == b.highest && a.lowest == b.lowest && a.skip == b.skip &&
+           a.flags == b.flags;
 }
 
 TEST(GridProperty, ThreadsChangeNothing) {
     testing::RandomPatternOptions options;
     options.motifs = 400;
-    const Result<ResolvedPattern> pattern = resolve_pattern(testing::random_pattern(5, options), {.lenient = true});
+    const Result<ResolvedPattern> pattern =
+        resolve_pattern(testing::random_pattern(5, options), {.lenient = true});
     ASSERT_TRUE(pattern.ok());
     ASSERT_GT(pattern->elements.size(), 512u);
-    const Result<CellGrid> one = build_grid(*pattern, {.threads = 1}), two = build_grid(*pattern, {.threads = 2}),
+    const Result<CellGrid> one = build_grid(*pattern, {.threads = 1}),
+                           two = build_grid(*pattern, {.threads = 2}),
                            many = build_grid(*pattern, {.threads = 7});
     ASSERT_TRUE(one.ok() && two.ok() && many.ok()) << (one.ok() ? "" : one.error().message);
     EXPECT_TRUE(equal_grids(*one, *two));
@@ -240,7 +259,8 @@ TEST(GridProperty, SkippedSquaresAreEmptyAndLevel) {
                         const int x = col + dx, y = row + dy;
                         const bool out = x < 0 || y < 0 || x >= grid->cols || y >= grid->rows;
                         ASSERT_TRUE(repeats || !out);
-                        const std::size_t n = static_cast<std::size_t>((y + grid->rows) % grid->rows * grid->cols + (x + grid->cols) % grid->cols);
+                        const std::size_t n = static_cast<std::size_t>(
+                            (y + grid->rows) % grid->rows * grid->cols + (x + grid->cols) % grid->cols);
                         if (skip > 0) {
                             ASSERT_EQ(grid->first_ref[n], grid->first_ref[n + 1]);
                             ASSERT_EQ(grid->level[n], grid->level[k]);

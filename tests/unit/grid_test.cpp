@@ -25,8 +25,8 @@ Path stroke(Vec2 a, Vec2 b, std::uint32_t profile = 0) {
 
 Path plate(double low, double high) {
     Path path;
-    path.elements = {line({low, low}, {high, low}), line({high, low}, {high, high}), line({high, high}, {low, high}),
-                     line({low, high}, {low, low})};
+    path.elements = {line({low, low}, {high, low}), line({high, low}, {high, high}),
+                     line({high, high}, {low, high}), line({low, high}, {low, low})};
     path.closed = true;
     path.profile = 1;
     return path;
@@ -37,7 +37,8 @@ ResolvedPattern pattern_of(const std::vector<Path>& paths, Wrap wrap = Wrap::rep
     Pattern pattern;
     pattern.wrap = wrap;
     pattern.base_offset = 0.002;
-    pattern.profiles = {{{{-0.01, 0}, {-0.004, -0.003}, {0.004, -0.003}, {0.01, 0}}, {}}, {{{-0.005, 0}, {0.005, -0.002}}, {}}};
+    pattern.profiles = {{{{-0.01, 0}, {-0.004, -0.003}, {0.004, -0.003}, {0.01, 0}}, {}},
+                        {{{-0.005, 0}, {0.005, -0.002}}, {}}};
     pattern.paths = paths;
     Result<ResolvedPattern> resolved = resolve_pattern(pattern);
     EXPECT_TRUE(resolved.ok()) << (resolved.ok() ? "" : resolved.error().message);
@@ -50,7 +51,9 @@ CellGrid grid_of(const ResolvedPattern& pattern, const GridOptions& options = {}
     return grid.ok() ? *grid : CellGrid{};
 }
 
-std::size_t at(const CellGrid& grid, int col, int row) { return static_cast<std::size_t>(row * grid.cols + col); }
+std::size_t at(const CellGrid& grid, int col, int row) {
+    return static_cast<std::size_t>(row * grid.cols + col);
+}
 std::uint32_t listed(const CellGrid& grid, int col, int row) {
     return grid.first_ref[at(grid, col, row) + 1] - grid.first_ref[at(grid, col, row)];
 }
@@ -68,7 +71,8 @@ TEST(Grid, EmptyPatternIsOneEmptyCell) {
 
 TEST(Grid, ListsExactlyTheRowsAGrooveReaches) {
     // Rows of 0.1; the groove spans y in [0.54, 0.56], within row 5 and far from its margin of 0.1 cell.
-    const CellGrid grid = grid_of(pattern_of({stroke({0.25, 0.55}, {0.65, 0.55})}), {.cell_size = 0.1, .margin = 0.1});
+    const CellGrid grid =
+        grid_of(pattern_of({stroke({0.25, 0.55}, {0.65, 0.55})}), {.cell_size = 0.1, .margin = 0.1});
     ASSERT_EQ(grid.cols, 10);
     ASSERT_EQ(grid.rows, 10);
     for (int row = 0; row < 10; ++row)
@@ -81,7 +85,8 @@ TEST(Grid, ListsExactlyTheRowsAGrooveReaches) {
 }
 
 TEST(Grid, TheMarginReachesOver) {
-    // The groove's edge at y = 0.505 lies 0.005 beyond the row below: within a margin of 0.1 cell, not of 0.01 cell.
+    // The groove's edge at y = 0.505 lies 0.005 beyond the row below: within a margin of 0.1 cell, not of
+    // 0.01 cell.
     const ResolvedPattern pattern = pattern_of({stroke({0.25, 0.515}, {0.65, 0.515})});
     EXPECT_EQ(listed(grid_of(pattern, {.cell_size = 0.1, .margin = 0.1}), 4, 4), 1u);
     EXPECT_EQ(listed(grid_of(pattern, {.cell_size = 0.1, .margin = 0.01}), 4, 4), 0u);
@@ -91,7 +96,8 @@ TEST(Grid, CellsAtTheBorderListWhatReachesAroundTheTile) {
     const CellGrid grid = grid_of(pattern_of({stroke({0.55, 0.995}, {0.65, 0.995})}), {.cell_size = 0.1});
     EXPECT_EQ(listed(grid, 5, 9), 1u);
     EXPECT_EQ(listed(grid, 5, 0), 1u);
-    const CellGrid clamped = grid_of(pattern_of({stroke({0.55, 0.995}, {0.65, 0.995})}, Wrap::clamp), {.cell_size = 0.1});
+    const CellGrid clamped =
+        grid_of(pattern_of({stroke({0.55, 0.995}, {0.65, 0.995})}, Wrap::clamp), {.cell_size = 0.1});
     EXPECT_EQ(listed(clamped, 5, 9), 1u);
     EXPECT_EQ(listed(clamped, 5, 0), 0u);
 }
@@ -116,7 +122,8 @@ TEST(Grid, StepsDoNotRunAlongCellCentres) {
             const Vec2 c{(col + 0.5) / grid.cols, (row + 0.5) / grid.rows};
             const bool inside = c.x > 0.35 && c.x < 0.65 && c.y > 0.35 && c.y < 0.65;
             EXPECT_NEAR(grid.level[at(grid, col, row)], inside ? -0.002 : 0.0, 1e-15);
-            for (const double edge : {0.35, 0.65}) EXPECT_GT(std::min(std::abs(c.x - edge), std::abs(c.y - edge)), 1e-4);
+            for (const double edge : {0.35, 0.65})
+                EXPECT_GT(std::min(std::abs(c.x - edge), std::abs(c.y - edge)), 1e-4);
         }
 }
 
@@ -124,9 +131,11 @@ TEST(Grid, IsolatedMeansOneSmoothChain) {
     Path bent = stroke({0.25, 0.55}, {0.45, 0.55});
     bent.elements.push_back(line({0.45, 0.55}, {0.85, 0.558}));
     const CellGrid grid = grid_of(pattern_of({bent, stroke({0.75, 0.3}, {0.75, 0.8})}), {.cell_size = 0.1});
-    const auto isolated = [&](int col, int row) { return (grid.flags[at(grid, col, row)] & BURIN_CELL_FLAG_ISOLATED) != 0; };
-    EXPECT_TRUE(isolated(0, 0));   // nothing
-    EXPECT_TRUE(isolated(3, 5));   // one element
+    const auto isolated = [&](int col, int row) {
+        return (grid.flags[at(grid, col, row)] & BURIN_CELL_FLAG_ISOLATED) != 0;
+    };
+    EXPECT_TRUE(isolated(0, 0));  // nothing
+    EXPECT_TRUE(isolated(3, 5));  // one element
     EXPECT_EQ(listed(grid, 4, 5), 2u);
     EXPECT_TRUE(isolated(4, 5));   // the joint
     EXPECT_FALSE(isolated(2, 5));  // the cap
@@ -139,7 +148,8 @@ TEST(Grid, SkipIsTheFreeSquare) {
     EXPECT_EQ(grid.skip[at(grid, 5, 5)], 0);
     EXPECT_EQ(grid.skip[at(grid, 5, 1)], 3);
     EXPECT_EQ(grid.skip[at(grid, 0, 0)], 4);  // around the tile nothing is farther than this
-    const CellGrid clamped = grid_of(pattern_of({stroke({0.51, 0.55}, {0.59, 0.55})}, Wrap::clamp), {.cell_size = 0.1});
+    const CellGrid clamped =
+        grid_of(pattern_of({stroke({0.51, 0.55}, {0.59, 0.55})}, Wrap::clamp), {.cell_size = 0.1});
     EXPECT_EQ(clamped.skip[at(clamped, 0, 0)], 0);
     EXPECT_EQ(clamped.skip[at(clamped, 2, 2)], 2);
 }
@@ -160,12 +170,15 @@ TEST(Grid, CostModelStaysNearTheFeatureWidth) {
 TEST(Grid, FullCellIsRefusedWithTheSizeThatFits) {
     std::vector<Path> paths;
     for (int i = 0; i < 10; ++i)
-        for (int k = 0; k < 10; ++k) paths.push_back(stroke({0.05 + 0.1 * i, 0.03 + 0.1 * k}, {0.05 + 0.1 * i, 0.06 + 0.1 * k}));
+        for (int k = 0; k < 10; ++k)
+            paths.push_back(stroke({0.05 + 0.1 * i, 0.03 + 0.1 * k}, {0.05 + 0.1 * i, 0.06 + 0.1 * k}));
     const ResolvedPattern pattern = pattern_of(paths, Wrap::clamp);
     const Result<CellGrid> grid = build_grid(pattern, {.cell_size = 1.0});
     ASSERT_FALSE(grid.ok());
     EXPECT_EQ(grid.error().code, ErrorCode::limit_exceeded);
-    EXPECT_NE(grid.error().message.find("cell (0,0) lists 100 elements, limit 63; cell_size 0.75"), std::string::npos) << grid.error().message;
+    EXPECT_NE(grid.error().message.find("cell (0,0) lists 100 elements, limit 63; cell_size 0.75"),
+              std::string::npos)
+        << grid.error().message;
     EXPECT_TRUE(build_grid(pattern).ok());
 }
 

@@ -28,13 +28,15 @@ Element arc(Vec2 a, Vec2 control, Vec2 b) {
 
 Path chain(const std::vector<Vec2>& points, std::uint32_t profile = 0, bool closed = false) {
     Path path;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) path.elements.push_back(line(points[i], points[i + 1]));
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        path.elements.push_back(line(points[i], points[i + 1]));
     path.closed = closed;
     path.profile = profile;
     return path;
 }
 
-// Profile 0: V groove, half-width 0.01. Profile 1: step down by 0.002 from left to right. Profile 2: plain wall of 0.002 up.
+// Profile 0: V groove, half-width 0.01. Profile 1: step down by 0.002 from left to right. Profile 2: plain
+// wall of 0.002 up.
 Pattern empty_pattern(Wrap wrap = Wrap::repeat) {
     Pattern pattern;
     pattern.depth = 0.01;
@@ -63,8 +65,12 @@ int count(const ResolvedPattern& pattern, JunctionKind kind) {
     return n;
 }
 
-bool is_clip(const ElementEnd& end) { return end.priority == Priority::both && end.shape == static_cast<int>(EndShape::clip); }
-bool is_hip(const ElementEnd& end) { return end.priority == Priority::both && end.shape == static_cast<int>(EndShape::hip); }
+bool is_clip(const ElementEnd& end) {
+    return end.priority == Priority::both && end.shape == static_cast<int>(EndShape::clip);
+}
+bool is_hip(const ElementEnd& end) {
+    return end.priority == Priority::both && end.shape == static_cast<int>(EndShape::hip);
+}
 
 // ---- profiles
 
@@ -72,7 +78,8 @@ std::uint32_t mask_of(const std::vector<ProfilePoint>& points) {
     Pattern pattern = empty_pattern();
     pattern.profiles = {{points, {}}};
     pattern.paths = {chain({{0.2, 0.2}, {0.4, 0.2}}, 0)};
-    if (points.front().h != points.back().h) pattern.paths = {chain({{0.2, 0.2}, {0.4, 0.2}, {0.3, 0.4}, {0.2, 0.2}}, 0, true)};
+    if (points.front().h != points.back().h)
+        pattern.paths = {chain({{0.2, 0.2}, {0.4, 0.2}, {0.3, 0.4}, {0.2, 0.2}}, 0, true)};
     const ResolvedPattern resolved = resolve(pattern);
     return resolved.profiles.empty() ? ~0u : resolved.profiles[0].internal_mask;
 }
@@ -105,18 +112,21 @@ TEST(ResolveProfile, StepAddsOnItsLowSideAndCutsOnItsHighSide) {
 // The far bank of a moat along a step rises past the low ground: only what lies below it cuts.
 TEST(ResolveProfile, FacetThatPassesTheGroundOfItsSideIsSplitThere) {
     Pattern pattern = empty_pattern();
-    pattern.profiles[1].points = {{-0.01, 0}, {-0.002, -0.004}, {0.002, -0.004}, {0.006, 0.002}, {0.01, -0.002}};
+    pattern.profiles[1].points = {
+        {-0.01, 0}, {-0.002, -0.004}, {0.002, -0.004}, {0.006, 0.002}, {0.01, -0.002}};
     pattern.paths = {chain({{0.2, 0.2}, {0.4, 0.2}, {0.3, 0.4}, {0.2, 0.2}}, 1, true)};
     const ResolvedPattern resolved = resolve(pattern);
     bool at_ground = false;
-    for (const ProfilePoint& p : resolved.profiles[1].points) at_ground = at_ground || (p.b > 0.002 && p.b < 0.006 && std::abs(p.h + 0.002) < 1e-12);
+    for (const ProfilePoint& p : resolved.profiles[1].points)
+        at_ground = at_ground || (p.b > 0.002 && p.b < 0.006 && std::abs(p.h + 0.002) < 1e-12);
     EXPECT_TRUE(at_ground);
 }
 
 TEST(ResolveProfile, OverhangNeedsFlags) {
     // Sides that lean over the trough's bottom twice: a vertical ray from the inner fold meets the outer one.
     Pattern pattern = empty_pattern();
-    pattern.profiles[0].points = {{-0.01, 0}, {-0.012, 0.002}, {-0.004, 0.001}, {-0.008, 0.0005}, {0, -0.002}, {0.01, 0}};
+    pattern.profiles[0].points = {{-0.01, 0},       {-0.012, 0.002}, {-0.004, 0.001},
+                                  {-0.008, 0.0005}, {0, -0.002},     {0.01, 0}};
     pattern.paths = {chain({{0.2, 0.2}, {0.4, 0.2}})};
     const std::string message = refusal(pattern);
     EXPECT_NE(message.find("profile 0"), std::string::npos) << message;
@@ -157,9 +167,11 @@ TEST(ResolveJoints, CornerGivesBackTheOuterSide) {
 TEST(ResolveJoints, MitreLimitAndJoinsOnRequest) {
     Pattern pattern = empty_pattern();
     // 1 / cos(turn / 2) is about 6.4 for a turn of 162 degrees.
-    pattern.paths = {chain({{0.2, 0.2}, {0.4, 0.2}, {0.4 - 0.2 * std::cos(0.1 * kPi), 0.2 + 0.2 * std::sin(0.1 * kPi)}})};
+    pattern.paths = {
+        chain({{0.2, 0.2}, {0.4, 0.2}, {0.4 - 0.2 * std::cos(0.1 * kPi), 0.2 + 0.2 * std::sin(0.1 * kPi)}})};
     EXPECT_EQ(resolve(pattern).elements[0].end.shape, static_cast<int>(CornerShape::bevel));
-    EXPECT_EQ(resolve(pattern, {.mitre_limit = 8.0}).elements[0].end.shape, static_cast<int>(CornerShape::mitre));
+    EXPECT_EQ(resolve(pattern, {.mitre_limit = 8.0}).elements[0].end.shape,
+              static_cast<int>(CornerShape::mitre));
     pattern.paths[0].join = JoinKind::round;
     EXPECT_EQ(resolve(pattern).elements[0].end.shape, static_cast<int>(CornerShape::round));
 }
@@ -202,7 +214,9 @@ TEST(ResolveJoints, OpenPathWhoseEndsMeetGetsACorner) {
 TEST(ResolveJoints, StarNeedsPriorityOnlyAtAFreeSectorAboveHalf) {
     Pattern pattern = empty_pattern();
     const Vec2 c{0.5, 0.5};
-    const auto spoke = [&](double degrees) { return chain({c, c + Vec2{std::cos(degrees * kPi / 180), std::sin(degrees * kPi / 180)} * 0.2}); };
+    const auto spoke = [&](double degrees) {
+        return chain({c, c + Vec2{std::cos(degrees * kPi / 180), std::sin(degrees * kPi / 180)} * 0.2});
+    };
     pattern.paths = {spoke(0), spoke(120), spoke(240)};
     const ResolvedPattern even = resolve(pattern);
     for (const ResolvedElement& e : even.elements) EXPECT_EQ(e.start.priority, Priority::none);
@@ -210,7 +224,8 @@ TEST(ResolveJoints, StarNeedsPriorityOnlyAtAFreeSectorAboveHalf) {
 
     pattern.paths = {spoke(-60), spoke(10), spoke(60)};
     const ResolvedPattern fan = resolve(pattern);
-    // The free sector opens to the left of the picture: direction 180 degrees, between the arms at 60 and -60.
+    // The free sector opens to the left of the picture: direction 180 degrees, between the arms at 60 and
+    // -60.
     EXPECT_EQ(fan.elements[0].start.priority, Priority::left);
     EXPECT_EQ(fan.elements[1].start.priority, Priority::none);
     EXPECT_EQ(fan.elements[2].start.priority, Priority::right);
@@ -321,7 +336,8 @@ TEST(ResolveSteps, GrooveIsSplitAtAStepAndContinuesOnTheOtherLevel) {
     EXPECT_EQ(resolved.elements[4].element.p2, (Vec2{0.4, 0.5}));
     EXPECT_EQ(resolved.elements[5].element.p2, (Vec2{0.6, 0.5}));
     const double levels[] = {0.0, -0.002, 0.0};
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(resolved.styles[resolved.elements[4 + i].style].level, levels[i], 1e-15);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(resolved.styles[resolved.elements[4 + i].style].level, levels[i], 1e-15);
     EXPECT_TRUE(is_clip(resolved.elements[4].end) && is_clip(resolved.elements[5].start));
     EXPECT_NEAR(resolved.elements[4].end.clip_angle, kPi / 2, 1e-12);
     EXPECT_EQ(resolved.stats.step_crossings, 2);
@@ -447,7 +463,9 @@ TEST_P(ResolveErrors, NameWhatAndWhere) {
     const std::string message = refusal(pattern);
     EXPECT_NE(message.find(GetParam().expected), std::string::npos) << message;
     // Lenient: the rest of the pattern comes through, and what was left out is told.
-    if (std::string(GetParam().expected).rfind("path", 0) != 0 && std::string(GetParam().expected).rfind("step", 0) != 0) return;
+    if (std::string(GetParam().expected).rfind("path", 0) != 0 &&
+        std::string(GetParam().expected).rfind("step", 0) != 0)
+        return;
     const Result<ResolvedPattern> rest = resolve_pattern(pattern, {.lenient = true});
     ASSERT_TRUE(rest.ok()) << rest.error().message;
     EXPECT_GE(rest->stats.dropped_paths, 1);
@@ -460,27 +478,52 @@ const double kNan = std::nan("");
 INSTANTIATE_TEST_SUITE_P(
     Patterns, ResolveErrors,
     ::testing::Values(
-        Bad{"Gap", [](Pattern& p) { p.paths[1].elements[1].p0.x = 0.61; }, "path 1, element 1 at (0.61, 0.7) does not start"},
-        Bad{"NotFinite", [](Pattern& p) { p.paths[1].elements[0].p2.y = kNan; }, "path 1, element 0 at (0.3, 0.7)"},
+        Bad{"Gap", [](Pattern& p) { p.paths[1].elements[1].p0.x = 0.61; },
+            "path 1, element 1 at (0.61, 0.7) does not start"},
+        Bad{"NotFinite", [](Pattern& p) { p.paths[1].elements[0].p2.y = kNan; },
+            "path 1, element 0 at (0.3, 0.7)"},
         Bad{"NoElement", [](Pattern& p) { p.paths[1].elements.clear(); }, "path 1 has no element"},
         Bad{"ProfileIndex", [](Pattern& p) { p.paths[1].profile = 9; }, "path 1 uses profile 9 of 3"},
         Bad{"MaterialIndex", [](Pattern& p) { p.paths[1].material = 1; }, "path 1 uses material 1 of 1"},
-        Bad{"Scale", [](Pattern& p) { p.paths[1].elements[0].width1 = 4.0; }, "path 1, element 0 at (0.3, 0.7) has scale 4"},
+        Bad{"Scale", [](Pattern& p) { p.paths[1].elements[0].width1 = 4.0; },
+            "path 1, element 0 at (0.3, 0.7) has scale 4"},
         Bad{"NotClosed", [](Pattern& p) { p.paths[1].closed = true; }, "path 1 at (0.6, 0.9) is closed"},
-        Bad{"ZeroLength", [](Pattern& p) { p.paths[1] = chain({{0.3, 0.7}, {0.3, 0.7}}); }, "path 1 at (0.3, 0.7) has length zero"},
+        Bad{"ZeroLength",
+            [](Pattern& p) {
+                p.paths[1] = chain({{0.3, 0.7}, {0.3, 0.7}});
+            },
+            "path 1 at (0.3, 0.7) has length zero"},
         Bad{"Level", [](Pattern& p) { p.paths[1].level = kNan; }, "path 1 has a level"},
-        Bad{"LooseStep", [](Pattern& p) { p.paths[1].profile = 1; }, "path 1 at (0.3, 0.7) is a step path that ends nowhere"},
-        Bad{"StepHeightScale", [](Pattern& p) { p.paths[1].profile = 1; p.paths[1].elements[1].height1 = 0.5; },
+        Bad{"LooseStep", [](Pattern& p) { p.paths[1].profile = 1; },
+            "path 1 at (0.3, 0.7) is a step path that ends nowhere"},
+        Bad{"StepHeightScale",
+            [](Pattern& p) {
+                p.paths[1].profile = 1;
+                p.paths[1].elements[1].height1 = 0.5;
+            },
             "path 1, element 1 at (0.6, 0.7) changes the height scale"},
-        Bad{"StepsCross", [](Pattern& p) { p.paths.push_back(plate(0.4, 0.6)); p.paths.push_back(plate(0.5, 0.8)); },
+        Bad{"StepsCross",
+            [](Pattern& p) {
+                p.paths.push_back(plate(0.4, 0.6));
+                p.paths.push_back(plate(0.5, 0.8));
+            },
             "step path 2 crosses step path 3 at (0.6, 0.5)"},
-        Bad{"StepCrossesItself", [](Pattern& p) { p.paths.push_back(chain({{0.3, 0.2}, {0.5, 0.4}, {0.5, 0.2}, {0.3, 0.4}, {0.3, 0.2}}, 1, true)); },
+        Bad{"StepCrossesItself",
+            [](Pattern& p) {
+                p.paths.push_back(
+                    chain({{0.3, 0.2}, {0.5, 0.4}, {0.5, 0.2}, {0.3, 0.4}, {0.3, 0.2}}, 1, true));
+            },
             "step path 2 crosses step path 2 at (0.4, 0.3)"},
         Bad{"ProfilePoints", [](Pattern& p) { p.profiles[0].points.resize(1); }, "profile 0: 1 points"},
-        Bad{"ProfileOrder", [](Pattern& p) { std::swap(p.profiles[0].points[0].b, p.profiles[0].points[2].b); }, "profile 0: the last point lies left"},
-        Bad{"ProfileGround", [](Pattern& p) { p.profiles[0].points[0].h = 0.001; }, "profile 0: the first point"},
-        Bad{"ProfileFlags", [](Pattern& p) { p.profiles[0].facets.resize(1); }, "profile 0: 1 facet flags for 3 points"},
-        Bad{"StepOffItsLine", [](Pattern& p) { p.profiles[1].points[0].b = 0.001; }, "profile 1: a step profile must reach over b = 0"},
+        Bad{"ProfileOrder",
+            [](Pattern& p) { std::swap(p.profiles[0].points[0].b, p.profiles[0].points[2].b); },
+            "profile 0: the last point lies left"},
+        Bad{"ProfileGround", [](Pattern& p) { p.profiles[0].points[0].h = 0.001; },
+            "profile 0: the first point"},
+        Bad{"ProfileFlags", [](Pattern& p) { p.profiles[0].facets.resize(1); },
+            "profile 0: 1 facet flags for 3 points"},
+        Bad{"StepOffItsLine", [](Pattern& p) { p.profiles[1].points[0].b = 0.001; },
+            "profile 1: a step profile must reach over b = 0"},
         Bad{"Size", [](Pattern& p) { p.size.x = 0.0; }, "pattern size"},
         Bad{"Depth", [](Pattern& p) { p.depth = -1.0; }, "pattern depth"},
         Bad{"Outer", [](Pattern& p) { p.outer_level = 1.0; }, "outer level"},
@@ -503,7 +546,8 @@ TEST(ResolveErrorsMore, HeightsAboveTheObjectSurfaceAreRefused) {
 TEST(ResolveErrorsMore, LenientDropsWhatHungOnADroppedStep) {
     Pattern pattern = empty_pattern();
     // Wall 1 ends on wall 0; wall 0 ends nowhere. Both go; the groove stays.
-    pattern.paths = {chain({{0.2, 0.2}, {0.8, 0.2}}, 1), chain({{0.5, 0.2}, {0.5, 0.6}, {0.2, 0.6}}, 1), chain({{0.1, 0.9}, {0.4, 0.9}})};
+    pattern.paths = {chain({{0.2, 0.2}, {0.8, 0.2}}, 1), chain({{0.5, 0.2}, {0.5, 0.6}, {0.2, 0.6}}, 1),
+                     chain({{0.1, 0.9}, {0.4, 0.9}})};
     const ResolvedPattern resolved = resolve(pattern, {.lenient = true});
     EXPECT_EQ(resolved.stats.dropped_paths, 2);
     EXPECT_EQ(resolved.elements.size(), 1u);
@@ -511,7 +555,8 @@ TEST(ResolveErrorsMore, LenientDropsWhatHungOnADroppedStep) {
 
 TEST(ResolveCleaning, DuplicatesAndZeroLengthAreDroppedAndCounted) {
     Pattern pattern = empty_pattern();
-    pattern.paths = {chain({{0.2, 0.2}, {0.3, 0.2}, {0.3, 0.2}, {0.4, 0.2}}), chain({{0.1, 0.9}, {0.4, 0.9}}), chain({{0.1, 0.9}, {0.4, 0.9}})};
+    pattern.paths = {chain({{0.2, 0.2}, {0.3, 0.2}, {0.3, 0.2}, {0.4, 0.2}}), chain({{0.1, 0.9}, {0.4, 0.9}}),
+                     chain({{0.1, 0.9}, {0.4, 0.9}})};
     const ResolvedPattern resolved = resolve(pattern);
     EXPECT_EQ(resolved.stats.dropped_elements, 2);
     EXPECT_EQ(resolved.elements.size(), 3u);

@@ -84,7 +84,7 @@ struct ResolveStats {
     int snapped_ends = 0;       // path ends moved onto another path or another end
     int releveled = 0;          // grooves whose level was not that of the ground they lie in
     int step_crossings = 0;     // places where a groove was split at a step
-    int uneven_levels = 0;      // step paths whose level differs from that of a step facing them; kept as given
+    int uneven_levels = 0;      // step paths off the level of a step facing them; brought together if near
     int dropped_paths = 0;      // lenient only: paths that would have been an error
     std::string first_dropped;  // the message that the first of them would have been
 };
