@@ -203,6 +203,12 @@ std::vector<FittedChain> join(std::vector<FittedChain> a, std::vector<FittedChai
     return a;
 }
 
+std::size_t count_lines(const std::vector<Chain>& chains, double tolerance) {
+    std::size_t sum = 0;
+    for (const Chain& chain : chains) sum += fit_polyline(chain, tolerance).size();
+    return sum;
+}
+
 // A curve that follows the grain of a ragged edge costs an element every few texels: first the fit is loosened, then
 // the least regions are given up, until the steps leave room for lines.
 std::vector<FittedChain> fit_within(Traced& traced, const Lattice& lattice, const VectorizeOptions& options,
@@ -211,21 +217,21 @@ std::vector<FittedChain> fit_within(Traced& traced, const Lattice& lattice, cons
     double share = kLeastRegionShare;
     const double loosest = std::max(1.2, 0.0007 * std::min(lattice.width, lattice.height));
     result.tolerance = options.tolerance > 0.0 ? options.tolerance : 0.3;
-    std::vector<FittedChain> lines = fit_chains(traced.lines, result.tolerance, threads);
-    std::vector<FittedChain> steps = fit_chains(traced.steps, result.tolerance, threads);
-    while (options.tolerance == 0.0 && count_elements(lines) + count_elements(steps) > budget &&
-           result.tolerance * 1.4 <= loosest) {
+    // Polylines are fast and tell how many elements to expect; the curves, which need fewer, are fitted once at the end.
+    const std::size_t most = budget * 5 / 4;
+    std::size_t lines = count_lines(traced.lines, result.tolerance), steps = count_lines(traced.steps, result.tolerance);
+    while (options.tolerance == 0.0 && lines + steps > most && result.tolerance * 1.4 <= loosest) {
         result.tolerance *= 1.4;
-        lines = fit_chains(traced.lines, result.tolerance, threads);
-        steps = fit_chains(traced.steps, result.tolerance, threads);
+        lines = count_lines(traced.lines, result.tolerance);
+        steps = count_lines(traced.steps, result.tolerance);
     }
-    for (int round = 0; round < 16 && count_elements(steps) > budget * 3 / 4; ++round) {
+    for (int round = 0; round < 16 && steps > most * 3 / 4; ++round) {
         share *= 2.0;
         merge_regions(traced.flattened, lattice, result.noise, share * energy, traced.regions);
         traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
-        steps = fit_chains(traced.steps, result.tolerance, threads);
+        steps = count_lines(traced.steps, result.tolerance);
     }
-    return join(std::move(lines), std::move(steps));
+    return join(fit_chains(traced.lines, result.tolerance, threads), fit_chains(traced.steps, result.tolerance, threads));
 }
 
 // Lines that explain little per element go, the least useful first, until the rest is within the budget. Steps hold the
