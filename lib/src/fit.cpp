@@ -227,15 +227,17 @@ Chain fit_points(const Points& points, const FitOptions& options) {
     if (is_loop(points) && points.count < kFewestOfLoop) return oval_of(points);
     Chain best;
     double least = 1e300;
-    // Where the structure found does not lead to a chain within the tolerance, a finer one may.
-    for (const double share : {1.0, 0.6, 0.35}) {
+    // The structure is looked for with a little less slack, since smooth joints will take some. Where it does not lead to
+    // a chain within the tolerance, or to one that crosses itself, a finer one may.
+    for (const double share : {0.85, 0.6, 0.35}) {
         FitOptions finer = options;
         finer.tolerance *= share;
         Chain chain = fit::segment_points(points, finer);
         fit::repair_chain(chain, points, options);
         fit::simplify_chain(chain, points, options);
         if (is_loop(points) && !has_inside(chain, points)) continue;
-        const double error = fit::judged_error(chain, points, options);
+        double error = fit::judged_error(chain, points, options);
+        if (is_loop(points) && fit::crosses_itself(chain)) error = std::max(error, 2.5 * options.tolerance);
         if (error < least) least = error, best = std::move(chain);
         if (least <= 1.5 * options.tolerance) break;
     }

@@ -161,10 +161,15 @@ Chain polyline_chain(const Points& points, const FitOptions& options);
 // Dynamic programme: the cheapest chain over the candidate breakpoints (fit_segment.cpp).
 Chain segment_points(const Points& points, const FitOptions& options);
 
-// Whether one element alone, unconstrained, could follow the points from `first` to `last`: cheap, and a condition for
-// any chain that spans them with one.
-bool one_line_fits(const Points& points, const FitOptions& options, long first, long last);
-bool one_quadratic_fits(const Points& points, const FitOptions& options, long first, long last);
+// One element alone, unconstrained, for the points from `first` to `last`: cheap, and a bound for any chain that spans
+// them with one.
+struct OnePiece {
+    bool fits = false;  // within the tolerance
+    double cost = 0.0;
+    Vec2 direction;  // at its start
+};
+OnePiece one_line(const Points& points, const FitOptions& options, long first, long last);
+OnePiece one_quadratic(const Points& points, const FitOptions& options, long first, long last);
 
 // What refine_chain makes small: the mean square, best against noise, or something near the largest error, for a chain
 // that just misses the tolerance.
@@ -176,6 +181,9 @@ double refine_chain(Chain& chain, const Points& points, const FitOptions& option
 
 // Largest error of a chain, as it is held against the tolerance.
 double judged_error(const Chain& chain, const Points& points, const FitOptions& options);
+
+// Whether a loop meets itself, by exact predicates on a polyline of four points per quadratic (fit_simple.cpp).
+bool crosses_itself(const Chain& chain);
 
 // Splits pieces until all are within tolerance, then removes what can go (fit_simplify.cpp).
 void repair_chain(Chain& chain, const Points& points, const FitOptions& options);

@@ -111,13 +111,16 @@ class Refiner {
     Local balance(long k);
     Local anchor(long k);
     double assemble(bool with_matrix);
-    int folded() const;
-    bool strayed() const;
+    bool is_sound(long k) const;
+    bool has_strayed(long k) const;
+    void take_back(const Chain& saved);
+    template <typename Visit>
+    void for_each_vertex(Visit visit) const;
     void set_anchors();
     void step(const std::vector<double>& change);
     double weight(long i, double distance) const;
-    // A trial of a few vertices need not look at every point of a long piece.
-    long stride_of(PointRange range) const { return whole_ ? 1 : std::max(1L, (range.end - range.begin) / 32); }
+    // A long piece is determined well enough by some of its points; the tolerance is held against all of them.
+    long stride_of(PointRange range) const { return std::max(1L, (range.end - range.begin) / (whole_ ? 48 : 20)); }
     void mark_ignored();
     PointRange looked_at(PointRange range, long before, long after) const;
     Columns& at(long k) { return columns_[static_cast<std::size_t>(chain_.wrap(k))]; }
@@ -141,12 +144,15 @@ class Refiner {
         double reach = 0.0;
     };
     std::vector<Anchor> anchors_;  // by vertex
+    std::vector<char> sound_before_;  // by vertex
+    std::vector<long> spoilt_;
     std::vector<double> right_;
 };
 
 Refiner::Refiner(Chain& chain, const Points& points, const FitOptions& options, Window window, Aim aim)
     : chain_(chain), points_(points), options_(options), window_(window), aim_(aim), whole_(window.count >= chain.size()) {
     columns_.resize(chain.vertices.size());
+    sound_before_.resize(chain.vertices.size());
     number_unknowns();
     matrix_ = Envelope(static_cast<std::size_t>(unknowns_));
     shape_envelope();
@@ -194,6 +200,14 @@ void Refiner::for_each_piece(Visit visit) const {
         if (!chain_.at(k).corner) visit(k, true);
         if ((chain_.closed || k < chain_.sides()) && chain_.at(k).line) visit(k, false);
     }
+}
+
+template <typename Visit>
+void Refiner::for_each_vertex(Visit visit) const {
+    long first = whole_ ? 0 : window_.first - 1;
+    long last = whole_ ? chain_.size() - 1 : window_.first + window_.count;
+    if (!chain_.closed) first = std::max(first, 0L), last = std::min(last, chain_.size() - 1);
+    for (long k = first; k <= last; ++k) visit(k);
 }
 
 std::array<int, kMost> Refiner::columns_of(long k, bool quadratic) const {
@@ -371,29 +385,46 @@ void Refiner::set_anchors() {
     }
 }
 
-bool Refiner::strayed() const {
-    for (std::size_t k = 0; k < anchors_.size(); ++k)
-        if (anchors_[k].held && length(chain_.vertices[k].v - anchors_[k].p) > anchors_[k].reach) return true;
-    return false;
+// Whether the quadratic at vertex k still stands for its points: its control point lies between its ends, seen along the
+// chord, so that no tangent runs backwards; it turns by less than 140 degrees; and it is not far longer than its points.
+bool Refiner::is_sound(long k) const {
+    const Vec2 p0 = chain_.joint_in(k), p2 = chain_.joint_out(k);
+    const Vec2 chord = p2 - p0, in = chain_.position(k) - p0, out = p2 - chain_.position(k);
+    const double along = dot(in, chord), whole = dot(chord, chord);
+    const double arms = length(in) + length(out);
+    const long first = chain_.begin(k), last = std::max(first, chain_.end(k) - 1);
+    const double row = points_.arc(std::min(last, points_.last())) - points_.arc(std::min(first, points_.last()));
+    return along > 0.02 * whole && along < 0.98 * whole && dot(in, out) > -0.77 * length(in) * length(out) &&
+           arms < 2.0 * row + 4.0 * std::max(options_.corner_reach, options_.tolerance);
 }
 
-// Quadratics that have left the curve they stand for: their control point does not lie between their ends, seen along the
-// chord, so that a tangent runs backwards; or they turn by more than 140 degrees; or are far longer than their points.
-int Refiner::folded() const {
-    int count = 0;
-    for_each_piece([&](long k, bool is_quadratic) {
-        if (!is_quadratic) return;
-        const Vec2 p0 = chain_.joint_in(k), p2 = chain_.joint_out(k);
-        const Vec2 chord = p2 - p0, in = chain_.position(k) - p0, out = p2 - chain_.position(k);
-        const double along = dot(in, chord), whole = dot(chord, chord);
-        const double arms = length(in) + length(out);
-        const long first = chain_.begin(k), last = std::max(first, chain_.end(k) - 1);
-        const double row = points_.arc(std::min(last, points_.last())) - points_.arc(std::min(first, points_.last()));
-        const bool sound = along > 0.02 * whole && along < 0.98 * whole && dot(in, out) > -0.77 * length(in) * length(out) &&
-                           arms < 2.0 * row + 4.0 * std::max(options_.corner_reach, options_.tolerance);
-        if (!sound) ++count;
-    });
-    return count;
+bool Refiner::has_strayed(long k) const {
+    const Anchor& anchor = anchors_[static_cast<std::size_t>(chain_.wrap(k))];
+    return anchor.held && length(chain_.at(k).v - anchor.p) > anchor.reach;
+}
+
+// Takes back the step where it has spoilt a quadratic or carried off a corner: there the vertex and its neighbours stay as
+// they were, and the rest of the chain goes on.
+void Refiner::take_back(const Chain& saved) {
+    const auto restore = [&](long k) {
+        if (!chain_.closed && (k < 0 || k >= chain_.size())) return;
+        Vertex& now = chain_.at(k);
+        const Vertex& before = saved.at(k);
+        now.v = before.v;
+        now.s0 = before.s0;
+        now.s1 = before.s1;
+    };
+    // Restoring one may spoil the next: a few rounds, then what is left is for the sum of squares to judge.
+    for (int round = 0; round < 3; ++round) {
+        spoilt_.clear();
+        for_each_vertex([&](long k) {
+            if (chain_.at(k).corner ? has_strayed(k) : (!is_sound(k) && sound_before_[static_cast<std::size_t>(chain_.wrap(k))]))
+                spoilt_.push_back(k);
+        });
+        if (spoilt_.empty()) return;
+        for (const long k : spoilt_)
+            for (const long i : {k - 1, k, k + 1}) restore(i);
+    }
 }
 
 double Refiner::assemble(bool with_matrix) {
@@ -464,9 +495,11 @@ double Refiner::run(int iterations) {
         bool sound = matrix_.factor();
         if (sound) {
             matrix_.solve(change);
-            const int folded_before = folded();
+            for_each_vertex([&](long k) {
+                sound_before_[static_cast<std::size_t>(chain_.wrap(k))] = !chain_.at(k).corner && is_sound(k);
+            });
             step(change);
-            sound = folded() <= folded_before && !strayed();
+            take_back(saved);
         }
         if (sound) assign_points(chain_, points_, window_);
         const double before = cost;

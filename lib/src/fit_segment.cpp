@@ -786,14 +786,18 @@ Chain ChainBuilder::run() {
 
 }  // namespace
 
-bool one_line_fits(const Points& points, const FitOptions& options, long first, long last) {
+OnePiece one_line(const Points& points, const FitOptions& options, long first, long last) {
     Piece piece;
-    return last - first < 2 || fit_line(points, options, first, last, piece);
+    if (last - first < 2) return {true, kLineCost, unit(points[std::max(first, last)] - points[first])};
+    const bool fits = fit_line(points, options, first, last, piece);
+    return {fits, piece.cost, piece.direction_in};
 }
 
-bool one_quadratic_fits(const Points& points, const FitOptions& options, long first, long last) {
+OnePiece one_quadratic(const Points& points, const FitOptions& options, long first, long last) {
     Piece piece;
-    return last > first && fit_quadratic(points, options, options.corner_reach, first, last, piece);
+    if (last <= first) return {};
+    const bool fits = fit_quadratic(points, options, options.corner_reach, first, last, piece);
+    return {fits, piece.cost, piece.direction_in};
 }
 
 Chain polyline_chain(const Points& points, const FitOptions& options) {

@@ -12,7 +12,8 @@ namespace burin::fit {
 namespace {
 
 constexpr int kRefineAll = 12;   // iterations over a whole chain
-constexpr int kRefineNear = 8;   // over the few vertices about a change
+constexpr int kRefineNear = 8;   // over the few vertices that miss the tolerance
+constexpr int kRefineTrial = 4;  // over those about a move
 constexpr double kShortLine = 40.0;  // in tolerances: a line that a curve may swallow
 constexpr long kFewest = 5;      // points below which a quadratic is not split: it could only follow noise
 
@@ -111,6 +112,25 @@ struct Input {
     const FitOptions& options;
 };
 
+double cost_of_quadratic(const Chain& chain, const Input& input, long k) {
+    const PieceError e = quadratic_error(chain, input.points, k, input.options.corner_reach);
+    return piece_cost(kQuadraticCost, e.sum_of_squares / static_cast<double>(std::max(1L, e.counted)),
+                      input.options.tolerance);
+}
+
+double cost_of_line(const Chain& chain, const Input& input, long k) {
+    const PieceError e = line_error(chain, input.points, k, input.options.corner_reach);
+    return piece_cost(kLineCost, e.sum_of_squares / static_cast<double>(std::max(1L, e.counted)),
+                      input.options.tolerance);
+}
+
+// How far, in tolerances, the quadratic at vertex k must give when its tangent at one end turns from `now` to `line`.
+double bent_by(const Chain& chain, const Input& input, long k, Vec2 line, Vec2 now) {
+    if (chain.at(k).corner) return 0.0;
+    const double extent = length(chain.joint_out(k) - chain.joint_in(k));
+    return 0.15 * std::abs(cross(line, now)) * extent / input.options.tolerance;
+}
+
 using Move = std::optional<Chain> (*)(const Chain&, const Input&, long k);
 
 // The line on side k goes; the curves beside it meet.
@@ -121,8 +141,8 @@ std::optional<Chain> drop_line(const Chain& chain, const Input& input, long k) {
     if (length(chain.joint_in(k + 1) - chain.joint_out(k)) > kShortLine * input.options.tolerance) return {};
     const long middle = start_corner ? chain.end(k) : end_corner ? chain.begin(k + 1)
                                                                  : (chain.end(k) + chain.begin(k + 1)) / 2;
-    if (!start_corner && !one_quadratic_fits(input.points, input.options, chain.begin(k), middle - 1)) return {};
-    if (!end_corner && !one_quadratic_fits(input.points, input.options, middle, chain.end(k + 1) - 1)) return {};
+    if (!start_corner && !one_quadratic(input.points, input.options, chain.begin(k), middle - 1).fits) return {};
+    if (!end_corner && !one_quadratic(input.points, input.options, middle, chain.end(k + 1) - 1).fits) return {};
     Chain next = chain;
     Vertex& vertex = next.at(k);
     vertex.line = false;
@@ -144,7 +164,8 @@ std::optional<Chain> join_quadratics(const Chain& chain, const Input& input, lon
     const double sine = cross(in, out);
     // More than about 100 degrees: one parabola would not do.
     if (dot(in, out) < -0.2) return {};
-    if (!one_quadratic_fits(input.points, input.options, chain.begin(k), chain.end(k + 1) - 1)) return {};
+    const OnePiece one = one_quadratic(input.points, input.options, chain.begin(k), chain.end(k + 1) - 1);
+    if (!one.fits || one.cost > cost_of_quadratic(chain, input, k) + cost_of_quadratic(chain, input, k + 1)) return {};
     Vec2 v = (a + b) * 0.5;
     if (std::abs(sine) > 0.02) {
         const double along = cross(b - a, out) / sine;
@@ -177,7 +198,15 @@ std::optional<Chain> straighten(const Chain& chain, const Input& input, long k) 
     if (dot(in, out) < 0.9) return {};
     const long begin = line_before ? chain.end(k - 1) : chain.begin(k);
     const long end = line_after ? chain.begin(k + 1) : chain.end(k);
-    if (!one_line_fits(input.points, input.options, begin, end - 1)) return {};
+    const OnePiece one = one_line(input.points, input.options, begin, end - 1);
+    double now = chain.at(k).corner ? 0.0 : cost_of_quadratic(chain, input, k);
+    if (line_before) now += cost_of_line(chain, input, k - 1);
+    if (line_after) now += cost_of_line(chain, input, k);
+    if (!one.fits || one.cost > now) return {};
+    // A curve between curves becomes a line only where the points are clearly straight.
+    if (!line_before && !line_after && one.cost > kLineCost + 0.1 * kErrorCost) return {};
+    if (!line_before && bent_by(chain, input, k - 1, one.direction, in) > 0.6) return {};
+    if (!line_after && bent_by(chain, input, k + 1, one.direction, out) > 0.6) return {};
     const Vec2 first = chain.joint_out(k - 1), last = chain.joint_in(k + 1);
     Chain next = chain;
     next.at(k - 1).line = true;
@@ -235,15 +264,15 @@ Stretch stretch_about(const Chain& chain, long k) {
     return s;
 }
 
-// Puts a stretch, which may have lost a vertex, back in its place.
-void put_back(Chain& chain, const Stretch& stretch, long old_size) {
+// Puts a stretch, which may have lost a vertex, back in its place. What failed near its vertex `at` may be tried again.
+void put_back(Chain& chain, const Stretch& stretch, long old_size, long at) {
     for (long i = 0; i < stretch.chain.size(); ++i) {
         const long k = stretch.first + i;
         Vertex v = stretch.chain.at(i);
         v.v = v.v - chain.period * static_cast<double>(chain.turns(k));
         v.begin -= chain.turn * chain.turns(k);
         v.end -= chain.turn * chain.turns(k);
-        v.tried = 0;
+        if (i >= at - 2 && i <= at + 3) v.tried = 0;
         chain.at(k) = v;
     }
     for (long i = stretch.chain.size(); i < old_size; ++i)
@@ -257,15 +286,19 @@ bool improve_by(Chain& chain, const Input& input, Move move, long k) {
     std::optional<Chain> next = move(chain, input, k);
     if (!next) return false;
     const long gone = chain.size() - next->size();
-    const Window window = about(*next, k - 2, 5);
+    const Window window = about(*next, k - 1, 4);
     const bool whole = window.count >= next->size();
     const Shaped before =
         shaped_by(chain, points, options, whole ? Window{0, chain.size()} : Window{window.first, window.count + gone});
     assign_points(*next, points, window);
-    refine_chain(*next, points, options, window, Aim::mean_square, kRefineNear);
+    // Two iterations show whether there is hope.
+    refine_chain(*next, points, options, window, Aim::mean_square, 2);
     Shaped after = shaped_by(*next, points, options, window);
-    if (after.judged > options.tolerance && after.judged < 1.4 * options.tolerance) {
-        refine_chain(*next, points, options, window, Aim::largest, kRefineNear);
+    if (after.judged > 2.5 * options.tolerance) return false;
+    refine_chain(*next, points, options, window, Aim::mean_square, kRefineTrial);
+    after = shaped_by(*next, points, options, window);
+    if (after.judged > options.tolerance && after.judged < 1.6 * options.tolerance) {
+        refine_chain(*next, points, options, window, Aim::largest, kRefineTrial);
         after = shaped_by(*next, points, options, window);
     }
     // Rounding a kink that is no corner may cost something; every other move has to pay.
@@ -284,7 +317,7 @@ bool try_move(Chain& chain, const Input& input, Move move, long k) {
     Stretch stretch = stretch_about(chain, k);
     const long size = stretch.chain.size();
     if (!improve_by(stretch.chain, input, move, k - stretch.first)) return false;
-    put_back(chain, stretch, size);
+    put_back(chain, stretch, size, k - stretch.first);
     return true;
 }
 
