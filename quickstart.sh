@@ -20,6 +20,6 @@ echo; echo "$burin check out/plate.glb --against out/plate.png"
 $burin check out/plate.glb --against out/plate.png
 
 echo; echo "Drawing ..."
-$burin render out/plate.glb -o out/plate_view.png --size 720x540
-scripts/compose_picture.sh out/plate.png out/plate.glb out/plate_view.png 0.016 0.235,0.775 out/quickstart.png
+$burin render out/plate.glb -o out/plate_view.png --size 600x600 --zoom 1.25 --samples 9
+scripts/compose_picture.sh out/plate.png out/plate.glb out/plate_view.png 0.016 0.395,0.225 out/quickstart.png
 echo; echo "The picture is out/quickstart.png"

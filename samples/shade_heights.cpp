@@ -16,7 +16,7 @@
 namespace {
 
 // Towards the light, z up; from the upper left, as drawings are lit.
-constexpr double kLight[3] = {-0.55, -0.55, 0.63};
+constexpr double kLight[3] = {-0.5, -0.5, 0.7071};
 
 // Bilinear interpolation between texel centres, borders repeated.
 double sample(const burin::Image& map, double u, double v) {
@@ -30,7 +30,7 @@ double sample(const burin::Image& map, double u, double v) {
     return above * (1 - fy) + below * fy;
 }
 
-// The part as heights in units of the map's extent, two samples per pixel side.
+// The part as side x side heights in units of the map's extent.
 burin::Image magnify(const burin::Image& map, double u, double v, double width, int side, double relief) {
     burin::Image heights(side, side);
     for (int j = 0; j < side; ++j)
@@ -67,15 +67,16 @@ double brightness(const burin::Image& heights, int i, int j, double step, double
     return std::min(sky + 0.85 * sun, 1.0);
 }
 
-burin::RgbaImage shade(const burin::Image& heights, double step) {
+// All but a rim of `rim` samples, which only casts shadows.
+burin::RgbaImage shade(const burin::Image& heights, double step, int rim) {
     const double highest = *std::max_element(heights.texels.begin(), heights.texels.end());
-    burin::RgbaImage picture{heights.width / 2, heights.height / 2, {}};
+    burin::RgbaImage picture{heights.width / 2 - rim, heights.height / 2 - rim, {}};
     const double tint[3] = {0.93, 0.86, 0.74};
     for (int j = 0; j < picture.height; ++j)
         for (int i = 0; i < picture.width; ++i) {
             double light = 0.0;
             for (int k = 0; k < 4; ++k)
-                light += brightness(heights, 2 * i + k % 2, 2 * j + k / 2, step, highest) / 4.0;
+                light += brightness(heights, rim + 2 * i + k % 2, rim + 2 * j + k / 2, step, highest) / 4.0;
             for (double channel : tint)
                 picture.texels.push_back(
                     static_cast<std::uint8_t>(std::lround(255.0 * std::pow(light * channel, 1.0 / 2.2))));
@@ -101,7 +102,10 @@ int main(int argc, char** argv) {
         return report("PIXELS is 1 to 4096, RELIEF and WIDTH are above 0");
     const auto map = burin::read_height_map(argv[1]);
     if (!map) return report(map.error().message);
-    const burin::Image heights = magnify(map->image, u, v, width, 2 * pixels, relief);
-    const auto written = burin::write_png(argv[5], shade(heights, width / (2 * pixels)));
+    // Two samples per pixel side, and half as much again around, from where shadows fall in.
+    const int rim = pixels / 2, side = 2 * pixels + 2 * rim;
+    const double step = width / (2 * pixels);
+    const burin::Image heights = magnify(map->image, u, v, step * side, side, relief);
+    const auto written = burin::write_png(argv[5], shade(heights, step, rim));
     return written ? 0 : report(written.error().message);
 }

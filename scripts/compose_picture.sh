@@ -7,7 +7,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 map=$1 asset=$2 view=$3 relief=$4 middle=$5 out=$6
-burin=build/cli/burin
+build=${BURIN_BUILD:-build}
+burin=$build/cli/burin
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -24,18 +25,19 @@ explained=$(awk -v x="$(value explained "$work/check.json")" 'BEGIN { printf "%.
 # The close-up: a square of 0.11 of the map's width, as the shader draws it and as the raster has it.
 side=400
 $burin render "$asset" --top --size 4096 -o "$work/heights.exr" -q
-build/samples/shade_heights "$work/heights.exr" "$middle,0.11" $side "$relief" "$work/near.png"
-build/samples/shade_heights "$map" "$middle,0.11" $side "$relief" "$work/raster.png"
+"$build/samples/shade_heights" "$work/heights.exr" "$middle,0.11" $side "$relief" "$work/near.png"
+"$build/samples/shade_heights" "$map" "$middle,0.11" $side "$relief" "$work/raster.png"
 
 # One panel: a picture of side x side pixels with a caption under it.
 panel() {
-    convert "$1" -auto-level -depth 8 -colorspace sRGB -resize "${side}x${side}" -background '#202020' -gravity center \
+    convert "$1" -depth 8 -colorspace sRGB -resize "${side}x${side}" -background '#202020' -gravity center \
         -extent "${side}x${side}" -gravity south -splice 0x28 -font DejaVu-Sans -pointsize 14 -fill white \
         -annotate +0+6 "$2" "$3"
 }
-panel "$map" "map: $((texels * 2 / 1024)) KiB as 16-bit texels" "$work/1.png"
-panel "$view" "burin: $textures bytes of textures, RMS error $percent %" "$work/2.png"
+convert "$map" -auto-level "$work/map.png"
+panel "$work/map.png" "map: $((texels * 2 / 1024)) KiB as 16-bit texels" "$work/1.png"
+panel "$view" "burin: $textures bytes of textures, RMS error $percent %%" "$work/2.png"
 panel "$work/raster.png" "close-up of the map, bilinear" "$work/3.png"
-panel "$work/near.png" "the same close-up of burin, $explained % explained" "$work/4.png"
+panel "$work/near.png" "the same close-up of burin, $explained %% explained" "$work/4.png"
 convert \( "$work/1.png" "$work/2.png" +append \) \( "$work/3.png" "$work/4.png" +append \) -append \
     -define png:exclude-chunks=date,time "$out"
