@@ -152,6 +152,36 @@ glm::mat4 projection(const View& view, const RenderOptions& options, double x, d
     return glm::mat4(glm::translate(glm::dmat4(1.0), shift) * clip * view.to_view);
 }
 
+// World directions of one unit of u and one of v at every vertex, the mean over its triangles by their area
+// in uv; six numbers per vertex. On a round surface they turn smoothly where those of the triangles jump.
+std::vector<float> directions_of(const Primitive& primitive) {
+    const std::size_t vertices = primitive.positions.size() / 3;
+    std::vector<float> sums(vertices * 6, 0.0f), weights(vertices, 0.0f);
+    for (std::size_t first = 0; first + 2 < primitive.indices.size(); first += 3) {
+        const std::uint32_t* corner = &primitive.indices[first];
+        const glm::dvec3 p = vertex(primitive.positions, corner[0]);
+        const glm::dvec3 p1 = vertex(primitive.positions, corner[1]) - p,
+                         p2 = vertex(primitive.positions, corner[2]) - p;
+        const auto uv = [&](int k) {
+            return Vec2{double(primitive.uvs[2 * corner[k]]), double(primitive.uvs[2 * corner[k] + 1])};
+        };
+        const Vec2 a = uv(1) - uv(0), b = uv(2) - uv(0);
+        const double area = cross(a, b);
+        const double sign = area < 0.0 ? -1.0 : 1.0;
+        const glm::dvec3 u = (p1 * b.y - p2 * a.y) * sign, v = (p2 * a.x - p1 * b.x) * sign;
+        for (std::size_t k = 0; k < 3; ++k) {
+            weights[corner[k]] += float(std::abs(area));
+            for (int axis = 0; axis < 3; ++axis) {
+                sums[6 * corner[k] + std::size_t(axis)] += float(u[axis]);
+                sums[6 * corner[k] + 3 + std::size_t(axis)] += float(v[axis]);
+            }
+        }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        sums[i] = weights[i / 6] > 0.0f ? sums[i] / weights[i / 6] : 0.0f;
+    return sums;
+}
+
 // One primitive as vertex arrays of its own.
 class Mesh {
   public:
@@ -159,18 +189,22 @@ class Mesh {
         : gl_(gl), count_(GLsizei(primitive.indices.size())) {
         gl_.GenVertexArrays(1, &array_);
         gl_.BindVertexArray(array_);
-        gl_.GenBuffers(4, buffers_);
+        gl_.GenBuffers(5, buffers_);
         attribute(0, 3, primitive.positions);
         attribute(1, 3, primitive.normals);
         attribute(2, 2, primitive.uvs);
-        gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[3]);
+        attribute(3, 3, directions_of(primitive), 6);
+        gl_.VertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, 6 * sizeof(float),
+                                reinterpret_cast<void*>(3 * sizeof(float)));
+        gl_.EnableVertexAttribArray(4);
+        gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[4]);
         gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(primitive.indices.size() * 4),
                        primitive.indices.data(), GL_STATIC_DRAW);
     }
     Mesh(const Mesh&) = delete;
     Mesh& operator=(const Mesh&) = delete;
     ~Mesh() {
-        gl_.DeleteBuffers(4, buffers_);
+        gl_.DeleteBuffers(5, buffers_);
         gl_.DeleteVertexArrays(1, &array_);
     }
     void draw() const {
@@ -179,17 +213,19 @@ class Mesh {
     }
 
   private:
-    void attribute(GLuint place, GLint components, const std::vector<float>& values) {
+    // `stride` floats from one vertex to the next; 0: packed.
+    void attribute(GLuint place, GLint components, const std::vector<float>& values, int stride = 0) {
         gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[place]);
         gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * 4), values.data(), GL_STATIC_DRAW);
-        gl_.VertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, 0, nullptr);
+        gl_.VertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, GLsizei(stride * int(sizeof(float))),
+                                nullptr);
         gl_.EnableVertexAttribArray(place);
     }
 
     const gl::Functions& gl_;
     GLsizei count_;
     GLuint array_ = 0;
-    GLuint buffers_[4] = {0, 0, 0, 0};
+    GLuint buffers_[5] = {0, 0, 0, 0, 0};
 };
 
 // The asset in the context: meshes, textures and the program.
