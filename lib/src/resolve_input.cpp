@@ -48,10 +48,17 @@ std::string element_text(std::size_t path, std::size_t element, Vec2 p) {
 
 bool valid_scale(double scale) { return scale >= 0.0 && scale < 4.0; }
 
-Status check_element(const Element& e, std::size_t path, std::size_t index) {
+// Tiles from the origin. Elements are cut to half a tile, so that this bounds what one element can become.
+constexpr double kFarthest = 64.0;
+
+Status check_element(const Element& e, Vec2 size, std::size_t path, std::size_t index) {
     const std::string where = element_text(path, index, e.p0);
     if (!finite(e.p0) || !finite(e.p2) || (e.kind == ElementKind::quadratic && !finite(e.p1)))
         return input_error(where + " has a point that is not finite");
+    for (const Vec2 p : {e.p0, e.kind == ElementKind::quadratic ? e.p1 : e.p0, e.p2})
+        if (std::abs(p.x) > kFarthest * size.x || std::abs(p.y) > kFarthest * size.y)
+            return input_error(where + " lies more than " + std::to_string(static_cast<int>(kFarthest)) +
+                               " tiles away, at " + position_text(p));
     for (const double scale : {e.width0, e.width1, e.height0, e.height1})
         if (!valid_scale(scale))
             return input_error(where + " has scale " + std::to_string(scale) + "; allowed is [0, 4)");
@@ -88,7 +95,8 @@ Status check_path(const Work& work, const std::vector<Status>& profile_status, s
     if (!profile_status[path.profile].ok()) return profile_status[path.profile].error();
     if (!std::isfinite(path.level)) return input_error(name + " has a level that is not finite");
     for (std::size_t i = 0; i < path.elements.size(); ++i) {
-        if (const Status status = check_element(path.elements[i], index, i); !status.ok()) return status;
+        if (const Status status = check_element(path.elements[i], pattern.size, index, i); !status.ok())
+            return status;
         if (i > 0 && length(path.elements[i].p0 - path.elements[i - 1].p2) > work.snap)
             return input_error(element_text(index, i, path.elements[i].p0) +
                                " does not start where the one before ends, at " +

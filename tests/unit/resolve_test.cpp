@@ -482,6 +482,8 @@ INSTANTIATE_TEST_SUITE_P(
             "path 1, element 1 at (0.61, 0.7) does not start"},
         Bad{"NotFinite", [](Pattern& p) { p.paths[1].elements[0].p2.y = kNan; },
             "path 1, element 0 at (0.3, 0.7)"},
+        Bad{"FarAway", [](Pattern& p) { p.paths[1].elements[1].p2.x = 65.0; },
+            "path 1, element 1 at (0.6, 0.7) lies more than 64 tiles away, at (65, 0.9)"},
         Bad{"NoElement", [](Pattern& p) { p.paths[1].elements.clear(); }, "path 1 has no element"},
         Bad{"ProfileIndex", [](Pattern& p) { p.paths[1].profile = 9; }, "path 1 uses profile 9 of 3"},
         Bad{"MaterialIndex", [](Pattern& p) { p.paths[1].material = 1; }, "path 1 uses material 1 of 1"},
