@@ -172,9 +172,12 @@ Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& optio
     }
 }
 
-// A step of the refinement looks at every texel within reach of every element: with wide profiles on long paths fewer
-// steps have to do. The count depends on the pattern alone, so that the bytes do not depend on the machine.
-int affordable_iterations(const Pattern& pattern, const Image& map, int most) {
+// A step of the refinement looks at every texel within reach of every element, and trying other ends and elements costs
+// several steps. With wide profiles on long paths less has to do. What is done depends on the pattern alone, not on a
+// clock, so that the bytes do not depend on the machine.
+RefineOptions affordable_refinement(RefineOptions options, const Pattern& pattern, const Image& map) {
+    constexpr double kSmallWork = 1.5e5;  // texels: all that the refinement can do takes a second or two
+    constexpr double kMostWork = 2.4e6;   // texels times steps
     const double texels = map.width / pattern.size.x;
     double work = 1.0;
     for (const Path& path : pattern.paths) {
@@ -182,18 +185,20 @@ int affordable_iterations(const Pattern& pattern, const Image& map, int most) {
         const double reach = (points.back().b - points.front().b) * texels + 2.0;
         for (const Element& element : path.elements) work += length_of(element) * texels * reach;
     }
-    constexpr double kWork = 8e6;  // texels times steps: some seconds
-    return std::min(most, std::clamp(static_cast<int>(kWork / work), 3, 12));
+    if (work <= kSmallWork) return options;
+    options.ends = options.elements = false;
+    options.iterations = std::min(options.iterations, static_cast<int>(kMostWork / work));
+    return options;
 }
 
 // Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
 Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
     if (!options.refine || candidate.traced.pattern.paths.empty()) return candidate;
+    RefineOptions refinement = affordable_refinement(options.refinement, candidate.traced.pattern, map.image);
+    if (refinement.iterations == 0) return candidate;
     if (!clock.begin("refine")) return stopped();
-    RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
-    refinement.iterations = affordable_iterations(candidate.traced.pattern, map.image, refinement.iterations);
     Vectorized refined = candidate.traced;
     if (!refine_pattern(refined.pattern, map.image, refinement)) return candidate;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
