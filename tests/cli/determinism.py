@@ -38,7 +38,7 @@ def main():
     with harness.Scratch() as folder:
         places = inputs.write_inputs(folder)
         maps = [places["groove.png"], places["noise.png"], arguments.plate]
-        shared = os.path.join(arguments.shared, "height", "pk02_floor_cyl02_h.png")
+        shared = os.path.join(arguments.shared, "height", "evillair_ex_wall_panel3_h.png")
         if os.path.exists(shared):
             maps.append(shared)
         for path in maps:
