@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cpp/decode.hpp>
+
 #include "../property/random_pattern.hpp"
 #include "patterns.hpp"
 #include "rays.hpp"
@@ -84,6 +86,32 @@ TEST_P(RandomCoreTest, DecoderAndShaderAgreeWithTruth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoreTest, ::testing::Range(0, 8));
+
+// Textures of noise: some answer within the relief, no access out of bounds, no endless loop.
+TEST(DecoderTest, AnswersOnDamagedTextures) {
+    Random random(kSeed);
+    for (int k = 0; k < 300; ++k) {
+        PackedTextures textures;
+        textures.grid_width = 1 + random.below(9);
+        textures.grid_height = 1 + random.below(9);
+        textures.grid.resize(2 * std::size_t(textures.grid_width * textures.grid_height));
+        textures.data_width = 1 + random.below(20);
+        textures.data_height = 1 + random.below(20);
+        textures.data.resize(4 * std::size_t(textures.data_width * textures.data_height));
+        for (std::uint32_t& word : textures.grid) word = std::uint32_t(random.bits());
+        for (std::uint32_t& word : textures.data) word = std::uint32_t(random.bits());
+        textures.sections = {5, 3, 4, 1, 5};
+        PathDetail detail;
+        detail.size_v = 2.0;
+        detail.repeat = k % 2 == 0;
+        const Decoder decoder(textures, detail);
+        for (int i = 0; i < 40; ++i) {
+            const Vec2 origin{random.between(-1, 2), random.between(-1, 2)};
+            const DecodedHit hit = decoder.trace(origin, random.direction() * random.between(0, 20));
+            EXPECT_TRUE(hit.drop >= 0.0 && hit.drop <= detail.depth * 1.001) << hit.drop << ", round " << k;
+        }
+    }
+}
 
 }  // namespace
 }  // namespace burin::testing
