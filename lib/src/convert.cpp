@@ -172,32 +172,28 @@ Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& optio
     }
 }
 
-// A step of the refinement looks at every texel within reach of every element, and trying other ends and elements costs
-// several steps. With wide profiles on long paths less has to do. What is done depends on the pattern alone, not on a
+// A step of the refinement looks at every texel within reach of every element: wide profiles on long paths would take
+// minutes and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a
 // clock, so that the bytes do not depend on the machine.
-RefineOptions affordable_refinement(RefineOptions options, const Pattern& pattern, const Image& map) {
-    constexpr double kSmallWork = 1.5e5;  // texels: all that the refinement can do takes a second or two
-    constexpr double kMostWork = 2.4e6;   // texels times steps
+bool can_afford_refinement(const Pattern& pattern, const Image& map) {
+    constexpr double kMostTexels = 1.2e5;  // element lengths times profile widths: a second or two
     const double texels = map.width / pattern.size.x;
-    double work = 1.0;
+    double work = 0.0;
     for (const Path& path : pattern.paths) {
         const std::vector<ProfilePoint>& points = pattern.profiles[path.profile].points;
         const double reach = (points.back().b - points.front().b) * texels + 2.0;
         for (const Element& element : path.elements) work += length_of(element) * texels * reach;
     }
-    if (work <= kSmallWork) return options;
-    options.ends = options.elements = false;
-    options.iterations = std::min(options.iterations, static_cast<int>(kMostWork / work));
-    return options;
+    return work <= kMostTexels;
 }
 
 // Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
 Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
     if (!options.refine || candidate.traced.pattern.paths.empty()) return candidate;
-    RefineOptions refinement = affordable_refinement(options.refinement, candidate.traced.pattern, map.image);
-    if (refinement.iterations == 0) return candidate;
+    if (!can_afford_refinement(candidate.traced.pattern, map.image)) return candidate;
     if (!clock.begin("refine")) return stopped();
+    RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
     Vectorized refined = candidate.traced;
     if (!refine_pattern(refined.pattern, map.image, refinement)) return candidate;
