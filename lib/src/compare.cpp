@@ -1,8 +1,9 @@
 // Figures of a reconstruction against its map.
 //
-// The Gaussian is wide (a sixteenth of the map), so it is applied to means over blocks of a sixteenth of its sigma and
-// interpolated back. Block means and linear interpolation blur by themselves, by the variances of a box (B^2 / 12) and
-// a triangle (B^2 / 6); the Gaussian on the blocks is narrowed by as much, and the whole has the sigma asked for.
+// The Gaussian is wide (a sixteenth of the map), so it is applied to means over blocks of a sixteenth of its
+// sigma and interpolated back. Block means and linear interpolation blur by themselves, by the variances of a
+// box (B^2 / 12) and a triangle (B^2 / 6); the Gaussian on the blocks is narrowed by as much, and the whole
+// has the sigma asked for.
 #include <burin/compare.hpp>
 
 #include <algorithm>
@@ -15,9 +16,9 @@ namespace burin {
 
 namespace {
 
-constexpr double kSigmaShare = 1.0 / 16.0;    // of the shorter side
-constexpr double kBlocksPerSigma = 16.0;      // 16: error of `explained` below 1e-5 on maps of noise
-constexpr double kKernelReach = 4.0;          // in sigma
+constexpr double kSigmaShare = 1.0 / 16.0;  // of the shorter side
+constexpr double kBlocksPerSigma = 16.0;    // 16: error of `explained` below 1e-5 on maps of noise
+constexpr double kKernelReach = 4.0;        // in sigma
 
 // How one axis of `texels` is cut into `blocks` equal pieces, and read back.
 struct Axis {
@@ -86,10 +87,12 @@ void blur_axis(std::vector<double>& blocks, const Axis& axis, Rows rows, double 
     for (int r = 0; r < rows.count; ++r) {
         double* row = blocks.data() + static_cast<std::size_t>(r) * rows.step;
         for (int i = -radius; i < axis.blocks + radius; ++i)
-            padded[static_cast<std::size_t>(i + radius)] = row[static_cast<std::size_t>(axis.folded(i)) * rows.stride];
+            padded[static_cast<std::size_t>(i + radius)] =
+                row[static_cast<std::size_t>(axis.folded(i)) * rows.stride];
         for (int i = 0; i < axis.blocks; ++i) {
             double sum = 0.0;
-            for (std::size_t k = 0; k < kernel.size(); ++k) sum += kernel[k] * padded[static_cast<std::size_t>(i) + k];
+            for (std::size_t k = 0; k < kernel.size(); ++k)
+                sum += kernel[k] * padded[static_cast<std::size_t>(i) + k];
             row[static_cast<std::size_t>(i) * rows.stride] = sum;
         }
     }
@@ -136,7 +139,8 @@ WideBlur::WideBlur(int width, int height, Wrap wrap, const Texel& texel) {
             sums[static_cast<std::size_t>(columns.block[i]) + 1] += v - first;
         }
         const double share = lines.share[static_cast<std::size_t>(y)];
-        double* block = blocks_.data() + static_cast<std::size_t>(lines.block[static_cast<std::size_t>(y)]) * n;
+        double* block =
+            blocks_.data() + static_cast<std::size_t>(lines.block[static_cast<std::size_t>(y)]) * n;
         for (std::size_t b = 0; b < n; ++b) {
             block[b] += sums[b] * share;
             block[b + n] += sums[b] * (1.0 - share);
@@ -234,7 +238,8 @@ Comparison compare_heights(const Image& reconstruction, const Image& input, Wrap
     };
     out.input_variance = high_pass_variance(input.width, input.height, wrap, value);
     out.error_variance = high_pass_variance(input.width, input.height, wrap, error);
-    // 1e-14: what rounding leaves of a constant map; a map with one texel changed by 1/65535 has more up to 100 Mtexel.
+    // 1e-14: what rounding leaves of a constant map; a map with one texel changed by 1/65535 has more up to
+    // 100 Mtexel.
     constexpr double kNothing = 1e-14;
     if (out.input_variance > kNothing) {
         out.explained = 1.0 - out.error_variance / out.input_variance;
@@ -253,7 +258,8 @@ Image subtract_smooth(const Image& map, Wrap wrap) {
     for (int y = 0; y < map.height; ++y) {
         blur.row(y, smooth);
         for (int x = 0; x < map.width; ++x)
-            out.at(x, y) = static_cast<float>(static_cast<double>(map.at(x, y)) - smooth[static_cast<std::size_t>(x)]);
+            out.at(x, y) =
+                static_cast<float>(static_cast<double>(map.at(x, y)) - smooth[static_cast<std::size_t>(x)]);
     }
     return out;
 }

@@ -1,5 +1,6 @@
-// Contours by marching squares. A cell is the square between four neighbouring samples; a side is the segment between
-// two of them. A contour enters a cell by one side and leaves by another; following it from cell to cell gives chains.
+// Contours by marching squares. A cell is the square between four neighbouring samples; a side is the segment
+// between two of them. A contour enters a cell by one side and leaves by another; following it from cell to
+// cell gives chains.
 #include <burin/contour.hpp>
 
 #include <algorithm>
@@ -12,16 +13,19 @@ namespace burin {
 
 namespace {
 
-// Sides of a cell: 0 top, 1 right, 2 bottom, 3 left. Corners: 0 top left, 1 top right, 2 bottom right, 3 bottom left.
-// Side i joins corner i and corner i + 1, except that the left side joins corner 3 and corner 0.
+// Sides of a cell: 0 top, 1 right, 2 bottom, 3 left. Corners: 0 top left, 1 top right, 2 bottom right, 3
+// bottom left. Side i joins corner i and corner i + 1, except that the left side joins corner 3 and corner 0.
 //
-// Direction: high values on the left of the way, b < 0 with n = (-t.y, t.x). With v down, n points to the right on
-// screen, so high lies to the left on screen: a contour enters a cell by a side whose corners, clockwise on screen,
-// go from low to high, and leaves by one where they go from high to low.
+// Direction: high values on the left of the way, b < 0 with n = (-t.y, t.x). With v down, n points to the
+// right on screen, so high lies to the left on screen: a contour enters a cell by a side whose corners,
+// clockwise on screen, go from low to high, and leaves by one where they go from high to low.
 class Tracer {
   public:
     Tracer(const Image& image, float level, bool wrap)
-        : image_(image), level_(level), wrap_(wrap), columns_(wrap ? image.width : image.width - 1),
+        : image_(image),
+          level_(level),
+          wrap_(wrap),
+          columns_(wrap ? image.width : image.width - 1),
           rows_(wrap ? image.height : image.height - 1),
           done_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0) {}
 
@@ -57,7 +61,7 @@ class Tracer {
     const Image& image_;
     float level_;
     bool wrap_;
-    int columns_, rows_;  // of cells
+    int columns_, rows_;              // of cells
     std::vector<std::uint8_t> done_;  // bit i: the contour that enters by side i has been traced
 };
 
@@ -65,11 +69,12 @@ int Tracer::leave_side(int x, int y, int enter) const {
     const std::array<bool, 4> c = corners(x, y);
     const bool saddle = c[0] == c[2] && c[1] == c[3] && c[0] != c[1];
     if (saddle) {
-        // Entering by side i, corner i is low and i + 1 high. Where the middle is high, the low corner i is cut off and
-        // the way out is the side before; where it is low, the high corner i + 1 is cut off.
-        const double mean = (static_cast<double>(sample(x, y)) + static_cast<double>(sample(x + 1, y)) +
-                             static_cast<double>(sample(x + 1, y + 1)) + static_cast<double>(sample(x, y + 1))) *
-                            0.25;
+        // Entering by side i, corner i is low and i + 1 high. Where the middle is high, the low corner i is
+        // cut off and the way out is the side before; where it is low, the high corner i + 1 is cut off.
+        const double mean =
+            (static_cast<double>(sample(x, y)) + static_cast<double>(sample(x + 1, y)) +
+             static_cast<double>(sample(x + 1, y + 1)) + static_cast<double>(sample(x, y + 1))) *
+            0.25;
         return mean >= static_cast<double>(level_) ? (enter + 3) % 4 : (enter + 1) % 4;
     }
     for (int side = 0; side < 4; ++side)
@@ -97,8 +102,8 @@ Contour Tracer::follow(Crossing start) {
         contour.points.push_back(point_on(at.x, at.y, at.enter));
         done(at.x, at.y) = static_cast<std::uint8_t>(done(at.x, at.y) | 1u << at.enter);
         const int leave = leave_side(at.x, at.y, at.enter);
-        const Crossing next{at.x + dx[static_cast<std::size_t>(leave)], at.y + dy[static_cast<std::size_t>(leave)],
-                            (leave + 2) % 4};
+        const Crossing next{at.x + dx[static_cast<std::size_t>(leave)],
+                            at.y + dy[static_cast<std::size_t>(leave)], (leave + 2) % 4};
         if (!inside(next.x, next.y)) {
             contour.points.push_back(point_on(at.x, at.y, leave));
             return contour;
@@ -117,7 +122,8 @@ void Tracer::trace_from(int x, int y, bool from_border, std::vector<Contour>& ou
     constexpr std::array<int, 4> dx{0, 1, 0, -1}, dy{-1, 0, 1, 0};
     for (int side = 0; side < 4; ++side) {
         if (!enters_by(c, side) || (done(x, y) >> side & 1u)) continue;
-        const bool border = !inside(x + dx[static_cast<std::size_t>(side)], y + dy[static_cast<std::size_t>(side)]);
+        const bool border =
+            !inside(x + dx[static_cast<std::size_t>(side)], y + dy[static_cast<std::size_t>(side)]);
         if (from_border && !border) continue;
         out.push_back(follow({x, y, side}));
     }
@@ -129,7 +135,8 @@ std::vector<Contour> Tracer::run() {
     if (!wrap_) {
         for (int y = 0; y < rows_; ++y) {
             const bool whole_row = y == 0 || y == rows_ - 1;
-            for (int x = 0; x < columns_; x += whole_row ? 1 : std::max(1, columns_ - 1)) trace_from(x, y, true, out);
+            for (int x = 0; x < columns_; x += whole_row ? 1 : std::max(1, columns_ - 1))
+                trace_from(x, y, true, out);
         }
     }
     for (int y = 0; y < rows_; ++y)

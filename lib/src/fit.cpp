@@ -1,5 +1,5 @@
-// Fit: from points to elements. The steps are in fit_segment.cpp (structure), fit_refine.cpp (least squares) and
-// fit_simplify.cpp (repair and removal).
+// Fit: from points to elements. The steps are in fit_segment.cpp (structure), fit_refine.cpp (least squares)
+// and fit_simplify.cpp (repair and removal).
 #include <burin/fit.hpp>
 
 #include <algorithm>
@@ -32,7 +32,8 @@ Distinct distinct_points(std::span<const Vec2> points, const FitOptions& options
         if (!options.weights.empty()) out.weights.push_back(options.weights[i]);
         out.source.push_back(i);
     }
-    while (options.closed && out.points.size() > 1 && out.points.back() == out.points.front() + options.period) {
+    while (options.closed && out.points.size() > 1 &&
+           out.points.back() == out.points.front() + options.period) {
         out.points.pop_back();
         if (!out.weights.empty()) out.weights.pop_back();
         out.source.pop_back();
@@ -96,7 +97,8 @@ struct Numbering {
     }
 };
 
-FitResult result_of(const Chain& chain, const Points& points, const FitOptions& options, const Numbering& numbering) {
+FitResult result_of(const Chain& chain, const Points& points, const FitOptions& options,
+                    const Numbering& numbering) {
     FitResult result;
     Errors errors;
     const double reach = options.corner_reach;
@@ -117,7 +119,8 @@ FitResult result_of(const Chain& chain, const Points& points, const FitOptions& 
             errors.add(line_error(chain, points, k, reach));
         }
     }
-    result.first_point.push_back(numbering(chain.closed ? chain.begin(chain.size()) : points.count, chain.closed));
+    result.first_point.push_back(
+        numbering(chain.closed ? chain.begin(chain.size()) : points.count, chain.closed));
     if (chain.closed && result.elements.size() > 0) {
         // The chain may begin with a quadratic whose points start before the row does.
         const long turn = static_cast<long>(numbering.given);
@@ -129,15 +132,16 @@ FitResult result_of(const Chain& chain, const Points& points, const FitOptions& 
     return result;
 }
 
-// Makes consecutive ends equal bit by bit: a joint on a side is computed once per neighbour, from the same numbers,
-// but across the seam of a closed chain rounding may differ.
+// Makes consecutive ends equal bit by bit: a joint on a side is computed once per neighbour, from the same
+// numbers, but across the seam of a closed chain rounding may differ.
 void weld(FitResult& result, const FitOptions& options) {
     std::vector<Element>& e = result.elements;
     for (std::size_t i = 1; i < e.size(); ++i) e[i].p0 = e[i - 1].p2;
     if (options.closed && !e.empty()) e.back().p2 = e.front().p0 + options.period;
 }
 
-// A joint that turns less than corner_angle is no corner, whatever the structure says, where its tangents agree.
+// A joint that turns less than corner_angle is no corner, whatever the structure says, where its tangents
+// agree.
 void mark_corners(FitResult& result, const FitOptions& options) {
     const std::vector<Element>& e = result.elements;
     for (std::size_t i = 0; i < e.size(); ++i) {
@@ -157,10 +161,12 @@ double area_of(const Points& points) {
     return 0.5 * twice;
 }
 
-// The oval of a loop of so few points that they have no shape to speak of: quadratics in the rectangle about them.
+// The oval of a loop of so few points that they have no shape to speak of: quadratics in the rectangle about
+// them.
 Chain oval_of(const Points& points) {
     Vec2 centre;
-    for (long i = 0; i < points.count; ++i) centre = centre + points[i] * (1.0 / static_cast<double>(points.count));
+    for (long i = 0; i < points.count; ++i)
+        centre = centre + points[i] * (1.0 / static_cast<double>(points.count));
     double xx = 0.0, xy = 0.0, yy = 0.0;
     for (long i = 0; i < points.count; ++i) {
         const Vec2 d = points[i] - centre;
@@ -188,7 +194,8 @@ Chain oval_of(const Points& points) {
         return centre + t * (middle.x + x) + n * (middle.y + y);
     };
     // The first quadratic is the one that the row's first eighth turns around.
-    const Vec2 lead = lerp(points[0], points[1], points.count >= 8 ? 1.0 : static_cast<double>(points.count) / 8.0);
+    const Vec2 lead =
+        lerp(points[0], points[1], points.count >= 8 ? 1.0 : static_cast<double>(points.count) / 8.0);
     int first = 0;
     for (const int i : {1, 2, 3})
         if (length(corner_of(i) - lead) < length(corner_of(first) - lead) - 1e-9) first = i;
@@ -208,8 +215,10 @@ bool is_loop(const Points& points) { return points.closed && points.period == Ve
 double area_of(const Chain& chain, Vec2 origin) {
     double twice = 0.0;
     for (long k = 0; k < chain.size(); ++k) {
-        const Vec2 a = chain.joint_in(k) - origin, v = chain.position(k) - origin, b = chain.joint_out(k) - origin;
-        // A quadratic covers two thirds of the triangle of its control points; a corner's three points coincide.
+        const Vec2 a = chain.joint_in(k) - origin, v = chain.position(k) - origin,
+                   b = chain.joint_out(k) - origin;
+        // A quadratic covers two thirds of the triangle of its control points; a corner's three points
+        // coincide.
         twice += cross(a, b) + (cross(a, v) + cross(v, b) - cross(a, b)) * (2.0 / 3.0);
         if (chain.at(k).line) twice += cross(b, chain.joint_in(k + 1) - origin);
     }
@@ -227,8 +236,8 @@ Chain fit_points(const Points& points, const FitOptions& options) {
     if (is_loop(points) && points.count < kFewestOfLoop) return oval_of(points);
     Chain best;
     double least = 1e300;
-    // The structure is looked for with a little less slack, since smooth joints will take some. Where it does not lead to
-    // a chain within the tolerance, or to one that crosses itself, a finer one may.
+    // The structure is looked for with a little less slack, since smooth joints will take some. Where it does
+    // not lead to a chain within the tolerance, or to one that crosses itself, a finer one may.
     for (const double share : {0.85, 0.6, 0.35}) {
         FitOptions finer = options;
         finer.tolerance *= share;
@@ -270,7 +279,8 @@ Result<FitResult> fit_curve(std::span<const Vec2> points, const FitOptions& opti
     check_options(points, options);
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
-            return Error{ErrorCode::invalid_input, "point " + std::to_string(i) + " of a curve is not finite"};
+            return Error{ErrorCode::invalid_input,
+                         "point " + std::to_string(i) + " of a curve is not finite"};
     Distinct row = distinct_points(points, options);
     const bool returns = options.closed && (options.period.x != 0.0 || options.period.y != 0.0);
     if (row.points.size() < 2 && !(returns && row.points.size() == 1))

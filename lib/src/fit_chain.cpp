@@ -8,7 +8,10 @@
 namespace burin::fit {
 
 Points::Points(std::vector<Vec2> once, std::vector<double> weight_once, bool is_closed, Vec2 turn)
-    : count(static_cast<long>(once.size())), closed(is_closed), period(turn), p_(std::move(once)),
+    : count(static_cast<long>(once.size())),
+      closed(is_closed),
+      period(turn),
+      p_(std::move(once)),
       weight_(std::move(weight_once)) {
     if (closed) {
         shift_ = count;
@@ -78,13 +81,15 @@ PointRange quadratic_range(const Chain& chain, const Points& points, long k, dou
 PointRange line_range(const Chain& chain, const Points& points, long k, double corner_reach) {
     PointRange r{chain.end(k), chain.begin(k + 1)};
     if (chain.at(k).corner) r.begin = std::max(r.begin, ignored_range(chain, points, k, corner_reach).end);
-    if (chain.at(k + 1).corner) r.end = std::min(r.end, ignored_range(chain, points, k + 1, corner_reach).begin);
+    if (chain.at(k + 1).corner)
+        r.end = std::min(r.end, ignored_range(chain, points, k + 1, corner_reach).begin);
     return r;
 }
 
 double closest_parameter(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess) {
-    // B(t) = p0 + 2 t d + t^2 a; Newton on (B - p) . B', which has one root near the guess for points within a radius
-    // of curvature. Where that is not convex, the step is bounded by leaving out the second derivative (Gauss-Newton).
+    // B(t) = p0 + 2 t d + t^2 a; Newton on (B - p) . B', which has one root near the guess for points within
+    // a radius of curvature. Where that is not convex, the step is bounded by leaving out the second
+    // derivative (Gauss-Newton).
     const Vec2 d = p1 - p0;
     const Vec2 a = p2 - p1 - d;
     double t = guess;
@@ -129,10 +134,13 @@ double excess_at_corner(const Chain& chain, const Points& points, long k, double
     for (long i = range.begin; i < range.end; ++i) {
         if (points.weight(i) == 0.0) continue;
         const Vec2 p = points[i];
-        const double before = chain.at(k - 1).line ? distance_to_line(chain.joint_out(k - 1), tip, p)
-                                                   : distance_to_quadratic(chain.joint_in(k - 1), chain.position(k - 1), tip, p, 1.0);
+        const double before =
+            chain.at(k - 1).line
+                ? distance_to_line(chain.joint_out(k - 1), tip, p)
+                : distance_to_quadratic(chain.joint_in(k - 1), chain.position(k - 1), tip, p, 1.0);
         const double after = chain.at(k).line ? distance_to_line(tip, chain.joint_in(k + 1), p)
-                                              : distance_to_quadratic(tip, chain.position(k + 1), chain.joint_out(k + 1), p, 0.0);
+                                              : distance_to_quadratic(tip, chain.position(k + 1),
+                                                                      chain.joint_out(k + 1), p, 0.0);
         most = std::max(most, std::min(before, after));
     }
     return most - 0.5 * corner_reach;
@@ -207,15 +215,17 @@ void assign_vertex(Chain& chain, const Points& points, long k, Limits limits) {
     Vertex& vertex = chain.at(k);
     if (vertex.corner) {
         const Vec2 in = direction_in(chain, k), out = direction_out(chain, k);
-        // In a hairpin the bisector says nothing: there the nearest point is the border. 0.85: turns above 150 degrees.
-        const long i = dot(in, out) > -0.85
-                           ? border_index(points, chain.position(k), unit(in + out), chain.begin(k), limits.low, limits.high)
-                           : nearest_index(points, chain.position(k), chain.begin(k), limits.low, limits.high);
+        // In a hairpin the bisector says nothing: there the nearest point is the border. 0.85: turns above
+        // 150 degrees.
+        const long i = dot(in, out) > -0.85 ? border_index(points, chain.position(k), unit(in + out),
+                                                           chain.begin(k), limits.low, limits.high)
+                                            : nearest_index(points, chain.position(k), chain.begin(k),
+                                                            limits.low, limits.high);
         vertex.begin = vertex.end = i - lap;
         return;
     }
-    const long b =
-        border_index(points, chain.joint_in(k), direction_in(chain, k), chain.begin(k), limits.low, limits.high);
+    const long b = border_index(points, chain.joint_in(k), direction_in(chain, k), chain.begin(k), limits.low,
+                                limits.high);
     const long e =
         border_index(points, chain.joint_out(k), direction_out(chain, k), chain.end(k), b, limits.high);
     vertex.begin = b - lap;
@@ -225,8 +235,8 @@ void assign_vertex(Chain& chain, const Points& points, long k, Limits limits) {
 }  // namespace
 
 void assign_points(Chain& chain, const Points& points, Window window) {
-    // The neighbours' borders move in the same pass, so a border between two quadratics, which belongs to both, is set
-    // from the earlier one and handed on.
+    // The neighbours' borders move in the same pass, so a border between two quadratics, which belongs to
+    // both, is set from the earlier one and handed on.
     const bool whole = window.count >= chain.size();
     const long first = whole ? 0 : window.first - 1;
     const long last = whole ? chain.size() - 1 : window.first + window.count;

@@ -1,8 +1,8 @@
 // Internal to the fit stage: the points as the fit sees them, and the curve as a control polygon.
 //
-// A chain of lines and quadratics that is tangent-continuous has a control polygon: each quadratic contributes its
-// control point, each corner itself, and every joint lies on a side of the polygon. Written that way the curve is
-// smooth by construction, whatever the optimiser does to the vertices.
+// A chain of lines and quadratics that is tangent-continuous has a control polygon: each quadratic
+// contributes its control point, each corner itself, and every joint lies on a side of the polygon. Written
+// that way the curve is smooth by construction, whatever the optimiser does to the vertices.
 #pragma once
 
 #include <algorithm>
@@ -13,22 +13,24 @@
 
 namespace burin::fit {
 
-// The points, indexed from -count to 2 count when closed (three turns, so that an element may straddle the start),
-// else from 0 to count - 1.
+// The points, indexed from -count to 2 count when closed (three turns, so that an element may straddle the
+// start), else from 0 to count - 1.
 class Points {
   public:
     Points(std::vector<Vec2> once, std::vector<double> weight_once, bool is_closed, Vec2 turn);
 
     Vec2 operator[](long i) const { return p_[static_cast<std::size_t>(i + shift_)]; }
-    double weight(long i) const { return weight_.empty() ? 1.0 : weight_[static_cast<std::size_t>(i + shift_)]; }
+    double weight(long i) const {
+        return weight_.empty() ? 1.0 : weight_[static_cast<std::size_t>(i + shift_)];
+    }
     double arc(long i) const { return arc_[static_cast<std::size_t>(i + shift_)]; }
     bool weighted() const { return !weight_.empty(); }
 
     long count = 0;  // of one turn
     bool closed = false;
     Vec2 period;
-    // Index just past what the chain covers when it starts at 0: an open chain ends with its last point, a closed one
-    // with the first point of the next turn.
+    // Index just past what the chain covers when it starts at 0: an open chain ends with its last point, a
+    // closed one with the first point of the next turn.
     long end() const { return closed ? count : count - 1; }
     long last() const { return closed ? 2 * count - 1 : count - 1; }  // largest index
 
@@ -45,7 +47,8 @@ struct Vertex {
     bool corner = false;  // the curve passes through v; otherwise v is the control point of a quadratic
     long begin = 0;       // points [begin, end) belong to the quadratic; begin == end for a corner
     long end = 0;
-    // The side: the joints at its start and end as fractions of it. They coincide when the side carries no line.
+    // The side: the joints at its start and end as fractions of it. They coincide when the side carries no
+    // line.
     bool line = false;
     double s0 = 0.0;
     double s1 = 0.0;
@@ -67,21 +70,27 @@ struct Chain {
     Vec2 position(long k) const { return at(k).v + period * static_cast<double>(turns(k)); }
     long begin(long k) const { return at(k).begin + turn * turns(k); }
     long end(long k) const { return at(k).end + turn * turns(k); }
-    Vec2 joint_out(long k) const { return lerp(position(k), position(k + 1), at(k).s0); }  // first joint on side k
-    Vec2 joint_in(long k) const { return lerp(position(k - 1), position(k), at(k - 1).s1); }  // last on side k - 1
+    Vec2 joint_out(long k) const {
+        return lerp(position(k), position(k + 1), at(k).s0);
+    }  // first joint on side k
+    Vec2 joint_in(long k) const {
+        return lerp(position(k - 1), position(k), at(k - 1).s1);
+    }  // last on side k - 1
     // Points of the piece that ends (begins) at corner k.
     long line_or_quadratic_before(long k) const { return at(k - 1).line ? end(k - 1) : begin(k - 1); }
     long line_or_quadratic_after(long k) const { return at(k).line ? begin(k + 1) : end(k + 1); }
     long elements() const;
 };
 
-// What the fit minimises, about in elements. A quadratic takes two texels in the data texture where a line takes one, and
-// a slower search in the shader; besides, a straight run should be a line even where a curve's slack would cover it.
+// What the fit minimises, about in elements. A quadratic takes two texels in the data texture where a line
+// takes one, and a slower search in the shader; besides, a straight run should be a line even where a curve's
+// slack would cover it.
 constexpr double kLineCost = 0.65;
 constexpr double kQuadraticCost = 1.25;
 
-// At a mean square error of the tolerance squared. High enough that straight lines and a corner win over a bow that just
-// keeps within the tolerance; the price is a seventh more quadratics on an arc than the tolerance asks for.
+// At a mean square error of the tolerance squared. High enough that straight lines and a corner win over a
+// bow that just keeps within the tolerance; the price is a seventh more quadratics on an arc than the
+// tolerance asks for.
 constexpr double kErrorCost = 1.5;
 
 inline double piece_cost(double base, double mean_square, double tolerance) {
@@ -94,10 +103,10 @@ struct Window {
     long count = 0;
 };
 
-// Errors of points in a row. A single point that strays, with neighbours that do not, is noise and not shape: it may
-// err half as much again as the tolerance. So what is held against the tolerance is the larger of e / 1.5 and
-// min(e, the larger of its neighbours' errors). In a row of fewer than 12 points every point counts as it is: there a
-// bow's middle and its ends look like single points.
+// Errors of points in a row. A single point that strays, with neighbours that do not, is noise and not shape:
+// it may err half as much again as the tolerance. So what is held against the tolerance is the larger of e
+// / 1.5 and min(e, the larger of its neighbours' errors). In a row of fewer than 12 points every point counts
+// as it is: there a bow's middle and its ends look like single points.
 struct ErrorTally {
     double judged = 0.0;
     double largest = 0.0;
@@ -140,7 +149,8 @@ PointRange line_range(const Chain& chain, const Points& points, long k, double c
 PieceError quadratic_error(const Chain& chain, const Points& points, long k, double corner_reach);
 PieceError line_error(const Chain& chain, const Points& points, long k, double corner_reach);
 
-// How far the points about corner k lie off its sides, beyond what a raster takes off a corner (half its reach).
+// How far the points about corner k lie off its sides, beyond what a raster takes off a corner (half its
+// reach).
 double excess_at_corner(const Chain& chain, const Points& points, long k, double corner_reach);
 
 // The distance within which a raster rounds a corner between directions `in` and `out` (unit vectors).
@@ -152,17 +162,19 @@ double closest_parameter(Vec2 p0, Vec2 p1, Vec2 p2, Vec2 p, double guess);
 // Moves the borders between the pieces' points to where the joints now are.
 void assign_points(Chain& chain, const Points& points, Window window);
 
-// Where a closed row is best cut: in the middle of its longest straight span, away from anything that matters.
+// Where a closed row is best cut: in the middle of its longest straight span, away from anything that
+// matters.
 long seam_of(const Points& points, const FitOptions& options);
 
-// The curve as nothing but lines and corners, through some of its points: within the tolerance whatever they are.
+// The curve as nothing but lines and corners, through some of its points: within the tolerance whatever they
+// are.
 Chain polyline_chain(const Points& points, const FitOptions& options);
 
 // Dynamic programme: the cheapest chain over the candidate breakpoints (fit_segment.cpp).
 Chain segment_points(const Points& points, const FitOptions& options);
 
-// One element alone, unconstrained, for the points from `first` to `last`: cheap, and a bound for any chain that spans
-// them with one.
+// One element alone, unconstrained, for the points from `first` to `last`: cheap, and a bound for any chain
+// that spans them with one.
 struct OnePiece {
     bool fits = false;  // within the tolerance
     double cost = 0.0;
@@ -171,8 +183,8 @@ struct OnePiece {
 OnePiece one_line(const Points& points, const FitOptions& options, long first, long last);
 OnePiece one_quadratic(const Points& points, const FitOptions& options, long first, long last);
 
-// What refine_chain makes small: the mean square, best against noise, or something near the largest error, for a chain
-// that just misses the tolerance.
+// What refine_chain makes small: the mean square, best against noise, or something near the largest error,
+// for a chain that just misses the tolerance.
 enum class Aim { mean_square, largest };
 
 // Least squares over the polygon's vertices and joints (fit_refine.cpp). Returns the weighted sum of squares.
@@ -182,7 +194,8 @@ double refine_chain(Chain& chain, const Points& points, const FitOptions& option
 // Largest error of a chain, as it is held against the tolerance.
 double judged_error(const Chain& chain, const Points& points, const FitOptions& options);
 
-// Whether a loop meets itself, by exact predicates on a polyline of four points per quadratic (fit_simple.cpp).
+// Whether a loop meets itself, by exact predicates on a polyline of four points per quadratic
+// (fit_simple.cpp).
 bool crosses_itself(const Chain& chain);
 
 // Splits pieces until all are within tolerance, then removes what can go (fit_simplify.cpp).

@@ -1,8 +1,8 @@
 // Least squares over the control polygon: Levenberg-Marquardt on the distances of the points to the curve.
 //
-// Unknowns are the vertices and the fractions at which joints lie on their sides. The distance of a point to the curve
-// changes, to first order, by the normal component of the change of its foot, so each residual touches at most three
-// neighbouring vertices and two fractions: the normal equations are a narrow band.
+// Unknowns are the vertices and the fractions at which joints lie on their sides. The distance of a point to
+// the curve changes, to first order, by the normal component of the change of its foot, so each residual
+// touches at most three neighbouring vertices and two fractions: the normal equations are a narrow band.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -119,8 +119,11 @@ class Refiner {
     void set_anchors();
     void step(const std::vector<double>& change);
     double weight(long i, double distance) const;
-    // A long piece is determined well enough by some of its points; the tolerance is held against all of them.
-    long stride_of(PointRange range) const { return std::max(1L, (range.end - range.begin) / (whole_ ? 48 : 20)); }
+    // A long piece is determined well enough by some of its points; the tolerance is held against all of
+    // them.
+    long stride_of(PointRange range) const {
+        return std::max(1L, (range.end - range.begin) / (whole_ ? 48 : 20));
+    }
     void mark_ignored();
     PointRange looked_at(PointRange range, long before, long after) const;
     Columns& at(long k) { return columns_[static_cast<std::size_t>(chain_.wrap(k))]; }
@@ -135,22 +138,27 @@ class Refiner {
     int unknowns_ = 0;
     std::vector<Columns> columns_;
     Envelope matrix_{0};
-    // Points near each corner. They are chosen before the first step and kept: were they to follow the corner, a step
-    // could lower the sum by driving points out of it.
+    // Points near each corner. They are chosen before the first step and kept: were they to follow the
+    // corner, a step could lower the sum by driving points out of it.
     std::vector<PointRange> ignored_;
     struct Anchor {
         bool held = false;
         Vec2 p;
         double reach = 0.0;
     };
-    std::vector<Anchor> anchors_;  // by vertex
+    std::vector<Anchor> anchors_;     // by vertex
     std::vector<char> sound_before_;  // by vertex
     std::vector<long> spoilt_;
     std::vector<double> right_;
 };
 
 Refiner::Refiner(Chain& chain, const Points& points, const FitOptions& options, Window window, Aim aim)
-    : chain_(chain), points_(points), options_(options), window_(window), aim_(aim), whole_(window.count >= chain.size()) {
+    : chain_(chain),
+      points_(points),
+      options_(options),
+      window_(window),
+      aim_(aim),
+      whole_(window.count >= chain.size()) {
     columns_.resize(chain.vertices.size());
     sound_before_.resize(chain.vertices.size());
     number_unknowns();
@@ -165,8 +173,8 @@ Refiner::Refiner(Chain& chain, const Points& points, const FitOptions& options, 
 void Refiner::number(long k, bool vertex_free) {
     Columns& c = at(k);
     if (vertex_free) {
-        const bool pinned = !chain_.closed && ((k == 0 && options_.pin_start) ||
-                                               (k == chain_.size() - 1 && options_.pin_end));
+        const bool pinned = !chain_.closed &&
+                            ((k == 0 && options_.pin_start) || (k == chain_.size() - 1 && options_.pin_end));
         if (!pinned) c.vertex = unknowns_, unknowns_ += 2;
     }
     if (!chain_.closed && (k < 0 || k >= chain_.sides())) return;
@@ -187,7 +195,8 @@ void Refiner::number_unknowns() {
         return;
     }
     const long n = chain_.size();
-    // A closed chain is folded, 0, n-1, 1, n-2, ..., so that neighbours across the seam stay close in the matrix.
+    // A closed chain is folded, 0, n-1, 1, n-2, ..., so that neighbours across the seam stay close in the
+    // matrix.
     for (long i = 0; i < n; ++i) number(chain_.closed ? (i % 2 == 0 ? i / 2 : n - 1 - i / 2) : i, true);
 }
 
@@ -214,10 +223,17 @@ std::array<int, kMost> Refiner::columns_of(long k, bool quadratic) const {
     const auto pair = [](int c, int i) { return c < 0 ? -1 : c + i; };
     const Columns& c = at(k);
     const Columns& n = at(k + 1);
-    if (!quadratic) return {pair(c.vertex, 0), pair(c.vertex, 1), pair(n.vertex, 0), pair(n.vertex, 1), -1, -1, -1, -1};
+    if (!quadratic)
+        return {pair(c.vertex, 0), pair(c.vertex, 1), pair(n.vertex, 0), pair(n.vertex, 1), -1, -1, -1, -1};
     const Columns& b = at(k - 1);
-    return {pair(b.vertex, 0), pair(b.vertex, 1), pair(c.vertex, 0), pair(c.vertex, 1),
-            pair(n.vertex, 0), pair(n.vertex, 1), b.s1,              c.s0};
+    return {pair(b.vertex, 0),
+            pair(b.vertex, 1),
+            pair(c.vertex, 0),
+            pair(c.vertex, 1),
+            pair(n.vertex, 0),
+            pair(n.vertex, 1),
+            b.s1,
+            c.s0};
 }
 
 void Refiner::shape_envelope() {
@@ -231,8 +247,8 @@ void Refiner::shape_envelope() {
 }
 
 double Refiner::weight(long i, double distance) const {
-    // The fourth power makes the sum one of sixth powers, whose optimum is near that of the largest error; the bound
-    // keeps one bad point from taking over.
+    // The fourth power makes the sum one of sixth powers, whose optimum is near that of the largest error;
+    // the bound keeps one bad point from taking over.
     if (aim_ == Aim::mean_square) return points_.weight(i);
     const double over = distance * distance / (options_.tolerance * options_.tolerance);
     return points_.weight(i) * (0.02 + std::min(over * over, 8.0));
@@ -312,7 +328,8 @@ Local Refiner::line(long k) {
         const double along = dot(p, side) * scale;
         const double residual = dot(n, p);
         const double c0 = 1.0 - along;
-        local.add({c0 * n.x, c0 * n.y, along * n.x, along * n.y, 0, 0, 0, 0}, residual, trust * weight(i, residual));
+        local.add({c0 * n.x, c0 * n.y, along * n.x, along * n.y, 0, 0, 0, 0}, residual,
+                  trust * weight(i, residual));
     }
     return local;
 }
@@ -333,8 +350,9 @@ Local Refiner::end_stop(long k, bool at_start) {
     return local;
 }
 
-// The control point of a nearly straight quadratic could slide along it at no cost. A weak pull to the middle decides: at a
-// third of the length off, it weighs as much as an error of a tenth of the tolerance in every point.
+// The control point of a nearly straight quadratic could slide along it at no cost. A weak pull to the middle
+// decides: at a third of the length off, it weighs as much as an error of a tenth of the tolerance in every
+// point.
 Local Refiner::balance(long k) {
     Local local;
     local.column.fill(-1);
@@ -352,7 +370,8 @@ Local Refiner::balance(long k) {
     return local;
 }
 
-// A corner whose one side has hardly a point could run away along the other. It is tied, weakly, to the points about it.
+// A corner whose one side has hardly a point could run away along the other. It is tied, weakly, to the
+// points about it.
 Local Refiner::anchor(long k) {
     Local local;
     local.column.fill(-1);
@@ -360,7 +379,8 @@ Local Refiner::anchor(long k) {
     const Columns& c = at(k);
     local.column[0] = c.vertex;
     local.column[1] = c.vertex + 1;
-    constexpr double kPull = 0.01;  // of a point's weight: moves a corner between sides of three points by 1/300 texel
+    constexpr double kPull =
+        0.01;  // of a point's weight: moves a corner between sides of three points by 1/300 texel
     const Vec2 d = anchors_[static_cast<std::size_t>(k)].p - chain_.position(k);
     local.add({1, 0, 0, 0, 0, 0, 0, 0}, d.x, kPull);
     local.add({0, 1, 0, 0, 0, 0, 0, 0}, d.y, kPull);
@@ -380,20 +400,22 @@ void Refiner::set_anchors() {
         const Vec2 out = unit(chain_.position(k + 1) - chain_.position(k));
         const double now = length(chain_.position(k) - anchors_[i].p);
         const double spacing = length(points_[border] - points_[border - 1]);
-        anchors_[i].reach = std::max(now, 1.5 * corner_radius(in, out, options_.corner_reach) +
-                                              2.0 * options_.tolerance + spacing);
+        anchors_[i].reach = std::max(
+            now, 1.5 * corner_radius(in, out, options_.corner_reach) + 2.0 * options_.tolerance + spacing);
     }
 }
 
-// Whether the quadratic at vertex k still stands for its points: its control point lies between its ends, seen along the
-// chord, so that no tangent runs backwards; it turns by less than 140 degrees; and it is not far longer than its points.
+// Whether the quadratic at vertex k still stands for its points: its control point lies between its ends,
+// seen along the chord, so that no tangent runs backwards; it turns by less than 140 degrees; and it is not
+// far longer than its points.
 bool Refiner::is_sound(long k) const {
     const Vec2 p0 = chain_.joint_in(k), p2 = chain_.joint_out(k);
     const Vec2 chord = p2 - p0, in = chain_.position(k) - p0, out = p2 - chain_.position(k);
     const double along = dot(in, chord), whole = dot(chord, chord);
     const double arms = length(in) + length(out);
     const long first = chain_.begin(k), last = std::max(first, chain_.end(k) - 1);
-    const double row = points_.arc(std::min(last, points_.last())) - points_.arc(std::min(first, points_.last()));
+    const double row =
+        points_.arc(std::min(last, points_.last())) - points_.arc(std::min(first, points_.last()));
     return along > 0.02 * whole && along < 0.98 * whole && dot(in, out) > -0.77 * length(in) * length(out) &&
            arms < 2.0 * row + 4.0 * std::max(options_.corner_reach, options_.tolerance);
 }
@@ -403,8 +425,8 @@ bool Refiner::has_strayed(long k) const {
     return anchor.held && length(chain_.at(k).v - anchor.p) > anchor.reach;
 }
 
-// Takes back the step where it has spoilt a quadratic or carried off a corner: there the vertex and its neighbours stay as
-// they were, and the rest of the chain goes on.
+// Takes back the step where it has spoilt a quadratic or carried off a corner: there the vertex and its
+// neighbours stay as they were, and the rest of the chain goes on.
 void Refiner::take_back(const Chain& saved) {
     const auto restore = [&](long k) {
         if (!chain_.closed && (k < 0 || k >= chain_.size())) return;
@@ -418,7 +440,9 @@ void Refiner::take_back(const Chain& saved) {
     for (int round = 0; round < 3; ++round) {
         spoilt_.clear();
         for_each_vertex([&](long k) {
-            if (chain_.at(k).corner ? has_strayed(k) : (!is_sound(k) && sound_before_[static_cast<std::size_t>(chain_.wrap(k))]))
+            if (chain_.at(k).corner
+                    ? has_strayed(k)
+                    : (!is_sound(k) && sound_before_[static_cast<std::size_t>(chain_.wrap(k))]))
                 spoilt_.push_back(k);
         });
         if (spoilt_.empty()) return;
@@ -440,10 +464,11 @@ double Refiner::assemble(bool with_matrix) {
                 const int b = local.column[static_cast<std::size_t>(j)];
                 if (b < 0) continue;
                 const double v = local.square[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-                // The same vertex may enter twice in a chain of one or two: both halves then fall on the diagonal.
+                // The same vertex may enter twice in a chain of one or two: both halves then fall on the
+                // diagonal.
                 const double twice = (a == b && i != j) ? 2.0 : 1.0;
-                matrix_.at(static_cast<std::size_t>(std::max(a, b)), static_cast<std::size_t>(std::min(a, b))) +=
-                    v * twice;
+                matrix_.at(static_cast<std::size_t>(std::max(a, b)),
+                           static_cast<std::size_t>(std::min(a, b))) += v * twice;
             }
         }
     };
@@ -476,7 +501,8 @@ void Refiner::step(const std::vector<double>& change) {
         // An arm shorter than a tenth of the tolerance would give a joint whose tangent rounding decides.
         const double side = length(chain_.position(static_cast<long>(k) + 1) - vertex.v);
         const double low = std::min(0.02, 0.1 * options_.tolerance / std::max(side, 1e-9));
-        if (c.s0 >= 0) vertex.s0 = std::clamp(vertex.s0 + change[static_cast<std::size_t>(c.s0)], low, 1.0 - low);
+        if (c.s0 >= 0)
+            vertex.s0 = std::clamp(vertex.s0 + change[static_cast<std::size_t>(c.s0)], low, 1.0 - low);
         if (c.s1 >= 0 && c.s1 != c.s0)
             vertex.s1 = std::clamp(vertex.s1 + change[static_cast<std::size_t>(c.s1)], low, 1.0 - low);
         if (c.s1 >= 0 && c.s1 == c.s0) vertex.s1 = vertex.s0;
@@ -490,7 +516,8 @@ double Refiner::run(int iterations) {
     double cost = assemble(true);
     for (int i = 0; i < iterations && damping < 1e6; ++i) {
         const Chain saved = chain_;
-        for (std::size_t d = 0; d < matrix_.size(); ++d) matrix_.at(d, d) = matrix_.at(d, d) * (1.0 + damping) + 1e-7;
+        for (std::size_t d = 0; d < matrix_.size(); ++d)
+            matrix_.at(d, d) = matrix_.at(d, d) * (1.0 + damping) + 1e-7;
         std::vector<double> change = right_;
         bool sound = matrix_.factor();
         if (sound) {

@@ -1,4 +1,5 @@
-// Whether a fitted loop is simple. A contour never crosses itself; where its fit does, the ground inside it has no meaning.
+// Whether a fitted loop is simple. A contour never crosses itself; where its fit does, the ground inside it
+// has no meaning.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
 

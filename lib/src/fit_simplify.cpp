@@ -11,11 +11,11 @@ namespace burin::fit {
 
 namespace {
 
-constexpr int kRefineAll = 12;   // iterations over a whole chain
-constexpr int kRefineNear = 8;   // over the few vertices that miss the tolerance
-constexpr int kRefineTrial = 4;  // over those about a move
+constexpr int kRefineAll = 12;       // iterations over a whole chain
+constexpr int kRefineNear = 8;       // over the few vertices that miss the tolerance
+constexpr int kRefineTrial = 4;      // over those about a move
 constexpr double kShortLine = 40.0;  // in tolerances: a line that a curve may swallow
-constexpr long kFewest = 5;      // points below which a quadratic is not split: it could only follow noise
+constexpr long kFewest = 5;  // points below which a quadratic is not split: it could only follow noise
 
 // Fraction of side k at which a joint lies, for a joint whose side has changed.
 double fraction_on(const Chain& chain, long k, Vec2 joint) {
@@ -73,7 +73,8 @@ void split_quadratic(Chain& chain, const Points& points, long k) {
 }
 
 Window about(const Chain& chain, long first, long count) {
-    if (chain.closed) return count >= chain.size() - 2 ? Window{0, chain.size()} : Window{chain.wrap(first), count};
+    if (chain.closed)
+        return count >= chain.size() - 2 ? Window{0, chain.size()} : Window{chain.wrap(first), count};
     const long low = std::max(0L, first);
     const long high = std::min(chain.size(), first + count);
     return {low, high - low};
@@ -98,14 +99,16 @@ Shaped shaped_by(const Chain& chain, const Points& points, const FitOptions& opt
     Shaped shaped;
     for (long k = first; k <= last; ++k) {
         if (!chain.at(k).corner)
-            shaped.add(quadratic_error(chain, points, k, options.corner_reach), kQuadraticCost, options.tolerance);
+            shaped.add(quadratic_error(chain, points, k, options.corner_reach), kQuadraticCost,
+                       options.tolerance);
         if ((chain.closed || k < chain.sides()) && chain.at(k).line)
             shaped.add(line_error(chain, points, k, options.corner_reach), kLineCost, options.tolerance);
     }
     return shaped;
 }
 
-// --- moves that remove an element; each gives the changed chain, or nothing where it does not apply --------------
+// --- moves that remove an element; each gives the changed chain, or nothing where it does not apply
+// --------------
 
 struct Input {
     const Points& points;
@@ -124,7 +127,8 @@ double cost_of_line(const Chain& chain, const Input& input, long k) {
                       input.options.tolerance);
 }
 
-// How far, in tolerances, the quadratic at vertex k must give when its tangent at one end turns from `now` to `line`.
+// How far, in tolerances, the quadratic at vertex k must give when its tangent at one end turns from `now` to
+// `line`.
 double bent_by(const Chain& chain, const Input& input, long k, Vec2 line, Vec2 now) {
     if (chain.at(k).corner) return 0.0;
     const double extent = length(chain.joint_out(k) - chain.joint_in(k));
@@ -139,10 +143,13 @@ std::optional<Chain> drop_line(const Chain& chain, const Input& input, long k) {
     if (!chain.at(k).line || (start_corner && end_corner)) return {};
     // Long lines stay: bending a straight run within the tolerance would save an element and show.
     if (length(chain.joint_in(k + 1) - chain.joint_out(k)) > kShortLine * input.options.tolerance) return {};
-    const long middle = start_corner ? chain.end(k) : end_corner ? chain.begin(k + 1)
-                                                                 : (chain.end(k) + chain.begin(k + 1)) / 2;
-    if (!start_corner && !one_quadratic(input.points, input.options, chain.begin(k), middle - 1).fits) return {};
-    if (!end_corner && !one_quadratic(input.points, input.options, middle, chain.end(k + 1) - 1).fits) return {};
+    const long middle = start_corner ? chain.end(k)
+                        : end_corner ? chain.begin(k + 1)
+                                     : (chain.end(k) + chain.begin(k + 1)) / 2;
+    if (!start_corner && !one_quadratic(input.points, input.options, chain.begin(k), middle - 1).fits)
+        return {};
+    if (!end_corner && !one_quadratic(input.points, input.options, middle, chain.end(k + 1) - 1).fits)
+        return {};
     Chain next = chain;
     Vertex& vertex = next.at(k);
     vertex.line = false;
@@ -165,13 +172,15 @@ std::optional<Chain> join_quadratics(const Chain& chain, const Input& input, lon
     // More than about 100 degrees: one parabola would not do.
     if (dot(in, out) < -0.2) return {};
     const OnePiece one = one_quadratic(input.points, input.options, chain.begin(k), chain.end(k + 1) - 1);
-    if (!one.fits || one.cost > cost_of_quadratic(chain, input, k) + cost_of_quadratic(chain, input, k + 1)) return {};
+    if (!one.fits || one.cost > cost_of_quadratic(chain, input, k) + cost_of_quadratic(chain, input, k + 1))
+        return {};
     Vec2 v = (a + b) * 0.5;
     if (std::abs(sine) > 0.02) {
         const double along = cross(b - a, out) / sine;
         if (along > 0.0 && along < 2.0 * length(b - a)) v = a + in * along;
     }
-    const Vec2 j0 = chain.joint_out(k - 1), j1 = chain.joint_in(k), j2 = chain.joint_out(k + 1), j3 = chain.joint_in(k + 2);
+    const Vec2 j0 = chain.joint_out(k - 1), j1 = chain.joint_in(k), j2 = chain.joint_out(k + 1),
+               j3 = chain.joint_in(k + 2);
     Chain next = chain;
     Vertex& vertex = next.at(k);
     const Vertex& second = chain.at(k + 1);
@@ -187,7 +196,8 @@ std::optional<Chain> join_quadratics(const Chain& chain, const Input& input, lon
     return next;
 }
 
-// Vertex k goes, a corner between two lines or a quadratic, and one line runs from the joint before to the joint after.
+// Vertex k goes, a corner between two lines or a quadratic, and one line runs from the joint before to the
+// joint after.
 std::optional<Chain> straighten(const Chain& chain, const Input& input, long k) {
     if (!chain.closed && (k == 0 || k == chain.size() - 1)) return {};
     if (chain.closed && chain.size() < 2) return {};
@@ -216,10 +226,11 @@ std::optional<Chain> straighten(const Chain& chain, const Input& input, long k) 
     return next;
 }
 
-// A corner that turns less than a corner must: between two lines a quadratic rounds it; beside a quadratic the tangents
-// become one.
+// A corner that turns less than a corner must: between two lines a quadratic rounds it; beside a quadratic
+// the tangents become one.
 std::optional<Chain> smooth_corner(const Chain& chain, const Input& input, long k) {
-    if (!chain.at(k).corner || (!chain.closed && (k == 0 || k == chain.size() - 1)) || chain.size() < 3) return {};
+    if (!chain.at(k).corner || (!chain.closed && (k == 0 || k == chain.size() - 1)) || chain.size() < 3)
+        return {};
     const Vec2 in = unit(chain.position(k) - chain.position(k - 1));
     const Vec2 out = unit(chain.position(k + 1) - chain.position(k));
     if (dot(in, out) < std::cos(input.options.corner_angle)) return {};
@@ -234,21 +245,25 @@ std::optional<Chain> smooth_corner(const Chain& chain, const Input& input, long 
     }
     next.at(k - 1).line = line_before || line_after;
     const long border = chain.begin(k);
-    if (!chain.at(k - 1).corner && !line_before) next.at(k - 1).end = border - chain.turn * chain.turns(k - 1);
-    if (!chain.at(k + 1).corner && !line_after) next.at(k + 1).begin = border - chain.turn * chain.turns(k + 1);
+    if (!chain.at(k - 1).corner && !line_before)
+        next.at(k - 1).end = border - chain.turn * chain.turns(k - 1);
+    if (!chain.at(k + 1).corner && !line_after)
+        next.at(k + 1).begin = border - chain.turn * chain.turns(k + 1);
     next.vertices.erase(next.vertices.begin() + chain.wrap(k));
     const long side = chain.wrap(k) == 0 ? next.size() - 1 : k - 1;
     place_joints(next, side, line_before ? first : here, line_after ? last : here);
     return next;
 }
 
-// A stretch of a chain as an open chain of its own: a move and its refinement then cost the same however long the chain.
+// A stretch of a chain as an open chain of its own: a move and its refinement then cost the same however long
+// the chain.
 struct Stretch {
     long first;  // number of its first vertex in the whole chain
     Chain chain;
 };
 
-constexpr long kBefore = 6, kAfter = 7;  // vertices about the one that a move is for; the refinement moves five of them
+constexpr long kBefore = 6,
+               kAfter = 7;  // vertices about the one that a move is for; the refinement moves five of them
 
 Stretch stretch_about(const Chain& chain, long k) {
     Stretch s;
@@ -264,7 +279,8 @@ Stretch stretch_about(const Chain& chain, long k) {
     return s;
 }
 
-// Puts a stretch, which may have lost a vertex, back in its place. What failed near its vertex `at` may be tried again.
+// Puts a stretch, which may have lost a vertex, back in its place. What failed near its vertex `at` may be
+// tried again.
 void put_back(Chain& chain, const Stretch& stretch, long old_size, long at) {
     for (long i = 0; i < stretch.chain.size(); ++i) {
         const long k = stretch.first + i;
@@ -279,8 +295,8 @@ void put_back(Chain& chain, const Stretch& stretch, long old_size, long at) {
         chain.vertices.erase(chain.vertices.begin() + chain.wrap(stretch.first + stretch.chain.size()));
 }
 
-// The move at vertex k of a chain, followed by a refinement of the vertices about it; false, and the chain as it was,
-// where the move does not pay.
+// The move at vertex k of a chain, followed by a refinement of the vertices about it; false, and the chain as
+// it was, where the move does not pay.
 bool improve_by(Chain& chain, const Input& input, Move move, long k) {
     const auto& [points, options] = input;
     std::optional<Chain> next = move(chain, input, k);
@@ -288,8 +304,8 @@ bool improve_by(Chain& chain, const Input& input, Move move, long k) {
     const long gone = chain.size() - next->size();
     const Window window = about(*next, k - 1, 4);
     const bool whole = window.count >= next->size();
-    const Shaped before =
-        shaped_by(chain, points, options, whole ? Window{0, chain.size()} : Window{window.first, window.count + gone});
+    const Shaped before = shaped_by(
+        chain, points, options, whole ? Window{0, chain.size()} : Window{window.first, window.count + gone});
     assign_points(*next, points, window);
     // Two iterations show whether there is hope.
     refine_chain(*next, points, options, window, Aim::mean_square, 2);
@@ -342,10 +358,11 @@ bool misses(const Chain& chain, const Points& points, const FitOptions& options,
            options.tolerance;
 }
 
-// Splits pieces that miss the tolerance. The error of a quadratic falls with the fourth power of its length, so a run of
-// quadratics that all miss it by the factor e needs e^(1/4) times as many: only that share of them is split, and the
-// refinement spreads the joints. Gives the number of splits.
-long split_missing(Chain& chain, const Points& points, const FitOptions& options, std::vector<bool>& missing) {
+// Splits pieces that miss the tolerance. The error of a quadratic falls with the fourth power of its length,
+// so a run of quadratics that all miss it by the factor e needs e^(1/4) times as many: only that share of
+// them is split, and the refinement spreads the joints. Gives the number of splits.
+long split_missing(Chain& chain, const Points& points, const FitOptions& options,
+                   std::vector<bool>& missing) {
     long splits = 0;
     double owed = 0.5;
     const auto mark = [&](long k) {
@@ -377,8 +394,8 @@ long split_missing(Chain& chain, const Points& points, const FitOptions& options
 namespace {
 
 // Refines every run of vertices near one that misses the tolerance.
-void refine_missing(Chain& chain, const Points& points, const FitOptions& options, const std::vector<bool>& missing,
-                    Aim aim) {
+void refine_missing(Chain& chain, const Points& points, const FitOptions& options,
+                    const std::vector<bool>& missing, Aim aim) {
     constexpr long kMargin = 3;
     const long n = chain.size();
     long since = kMargin + 1;  // vertices since the last that misses
@@ -387,7 +404,8 @@ void refine_missing(Chain& chain, const Points& points, const FitOptions& option
         const long begin = std::max(0L, first - kMargin);
         const long last = std::min(n, end + kMargin);
         const bool whole = last - begin >= n - 2;
-        refine_chain(chain, points, options, whole ? Window{0, n} : Window{begin, last - begin}, aim, kRefineNear);
+        refine_chain(chain, points, options, whole ? Window{0, n} : Window{begin, last - begin}, aim,
+                     kRefineNear);
         first = -1;
     };
     for (long k = 0; k < n; ++k) {
@@ -429,7 +447,8 @@ double judged_error(const Chain& chain, const Points& points, const FitOptions& 
     double worst = 0.0;
     for (long k = 0; k < chain.size(); ++k) {
         if (!chain.at(k).corner) worst = std::max(worst, quadratic_error(chain, points, k, reach).judged);
-        if (k < chain.sides() && chain.at(k).line) worst = std::max(worst, line_error(chain, points, k, reach).judged);
+        if (k < chain.sides() && chain.at(k).line)
+            worst = std::max(worst, line_error(chain, points, k, reach).judged);
         const bool inner = chain.closed || (k > 0 && k < chain.size() - 1);
         if (chain.at(k).corner && inner) worst = std::max(worst, excess_at_corner(chain, points, k, reach));
     }

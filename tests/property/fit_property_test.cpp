@@ -1,5 +1,5 @@
-// fit.hpp on random shapes, most of them rasterized with a box filter and contoured as a map's plateaus are. The seed of
-// a failing shape is printed.
+// fit.hpp on random shapes, most of them rasterized with a box filter and contoured as a map's plateaus are.
+// The seed of a failing shape is printed.
 #include <burin/contour.hpp>
 #include <burin/fit.hpp>
 
@@ -39,14 +39,16 @@ bool in_polygon(const Row& polygon, Vec2 p) {
     bool inside = false;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-        if ((a.y <= p.y) != (b.y <= p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) inside = !inside;
+        if ((a.y <= p.y) != (b.y <= p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x)
+            inside = !inside;
     }
     return inside;
 }
 
 double turn_at(const Row& polygon, std::size_t i) {
     const std::size_t n = polygon.size();
-    const Vec2 in = unit(polygon[i] - polygon[(i + n - 1) % n]), out = unit(polygon[(i + 1) % n] - polygon[i]);
+    const Vec2 in = unit(polygon[i] - polygon[(i + n - 1) % n]),
+               out = unit(polygon[(i + 1) % n] - polygon[i]);
     return std::abs(std::atan2(cross(in, out), dot(in, out)));
 }
 
@@ -66,7 +68,8 @@ Row random_polygon(Random& random) {
             good = good && turn > 0.6 && turn < 2.2;
             good = good && length(polygon[i] - polygon[(i + 1) % polygon.size()]) > 10.0;
             // Sides do not cross: the angle about the middle grows all the way.
-            good = good && cross(polygon[i] - Vec2{32, 32}, polygon[(i + 1) % polygon.size()] - Vec2{32, 32}) > 60.0;
+            good = good &&
+                   cross(polygon[i] - Vec2{32, 32}, polygon[(i + 1) % polygon.size()] - Vec2{32, 32}) > 60.0;
         }
         if (good) return polygon;
     }
@@ -137,7 +140,8 @@ TEST(fit_property, polygons_come_back_with_their_corners) {
             double nearest = 1e9;
             for (const Element& e : fit->elements) nearest = std::min(nearest, length(e.p0 - polygon[i]));
             // A sharp corner magnifies the raster's error along its axis.
-            EXPECT_LT(nearest, 0.15 / std::cos(0.5 * turn_at(polygon, i))) << "seed " << seed << " corner " << i;
+            EXPECT_LT(nearest, 0.15 / std::cos(0.5 * turn_at(polygon, i)))
+                << "seed " << seed << " corner " << i;
         }
     }
 }
@@ -147,7 +151,8 @@ TEST(fit_property, smooth_shapes_have_no_corner_and_few_elements) {
     for (unsigned seed = 1; seed <= 60; ++seed) {
         Random random(seed);
         const int k = 2 + static_cast<int>(uniform(random, 0.0, 3.0));
-        const Blob blob{uniform(random, 14.0, 24.0), uniform(random, 0.0, 0.7) / (1.0 + k * k), uniform(random, 0, 6), k};
+        const Blob blob{uniform(random, 14.0, 24.0), uniform(random, 0.0, 0.7) / (1.0 + k * k),
+                        uniform(random, 0, 6), k};
         const Image image = rasterized(64, [&](Vec2 p) {
             const Vec2 d = p - Vec2{32, 32};
             return length(d) < length(blob.at(std::atan2(d.y, d.x)) - Vec2{32, 32});
@@ -160,7 +165,8 @@ TEST(fit_property, smooth_shapes_have_no_corner_and_few_elements) {
         expect_sound(*fit, options, seed);
         EXPECT_EQ(corners(*fit), 0u) << "seed " << seed;
         EXPECT_LE(fit->max_error, 1.5 * options.tolerance) << "seed " << seed;
-        EXPECT_LE(static_cast<double>(fit->elements.size()), 1.4 * law_of(blob, 0.2) + 3.0) << "seed " << seed;
+        EXPECT_LE(static_cast<double>(fit->elements.size()), 1.4 * law_of(blob, 0.2) + 3.0)
+            << "seed " << seed;
         elements += static_cast<double>(fit->elements.size());
         law += law_of(blob, 0.2);
     }
@@ -182,7 +188,8 @@ TEST(fit_property, roads_of_lines_and_arcs_come_back_with_little_more) {
             const double radius = uniform(random, 8.0, 60.0), turn = uniform(random, 0.4, 2.0);
             const double extent = bend ? radius * turn : uniform(random, 15.0, 60.0);
             const double rate = bend ? (random() % 2 ? 1.0 : -1.0) / radius : 0.0;
-            given += bend ? static_cast<std::size_t>(std::ceil(turn / std::pow(256.0 * 0.15 / radius, 0.25))) : 1;
+            given +=
+                bend ? static_cast<std::size_t>(std::ceil(turn / std::pow(256.0 * 0.15 / radius, 0.25))) : 1;
             for (double s = 0.0; s < extent; s += 0.05) {
                 heading += rate * 0.05;
                 p = p + Vec2{std::cos(heading), std::sin(heading)} * 0.05;
@@ -229,16 +236,19 @@ TEST(fit_property, wild_contours_stay_sound_and_equal_in_two_runs) {
     for (unsigned seed = 1; seed <= 30; ++seed) {
         Random random(seed);
         const int size = 24 + static_cast<int>(uniform(random, 0.0, 40.0));
-        const double f = uniform(random, 0.05, 0.6), g = uniform(random, 0.05, 0.6), grain = uniform(random, 0.0, 0.3);
+        const double f = uniform(random, 0.05, 0.6), g = uniform(random, 0.05, 0.6),
+                     grain = uniform(random, 0.0, 0.3);
         Image image(size, size);
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x)
-                image.at(x, y) = static_cast<float>(std::sin(f * x) + std::cos(g * y + f * x) + uniform(random, -grain, grain));
+                image.at(x, y) = static_cast<float>(std::sin(f * x) + std::cos(g * y + f * x) +
+                                                    uniform(random, -grain, grain));
         FitOptions options{.tolerance = uniform(random, 0.05, 0.8)};
         for (const Contour& contour : trace_contours(image, 0.1f, seed % 2 == 0)) {
             options.closed = contour.closed;
             options.period = contour.period;
-            const Result<FitResult> one = fit_curve(contour.points, options), two = fit_curve(contour.points, options);
+            const Result<FitResult> one = fit_curve(contour.points, options),
+                                    two = fit_curve(contour.points, options);
             ASSERT_TRUE(one.ok()) << seed;
             expect_sound(*one, options, seed);
             ASSERT_EQ(one->elements.size(), two->elements.size());

@@ -1,4 +1,5 @@
-// compare.hpp: the fast wide Gaussian against the direct sum in double precision, and the plain figures by hand.
+// compare.hpp: the fast wide Gaussian against the direct sum in double precision, and the plain figures by
+// hand.
 #include <burin/compare.hpp>
 
 #include <cmath>
@@ -32,7 +33,8 @@ std::vector<double> direct_blur(const std::vector<double>& in, int width, int he
             for (int i = -radius; i <= radius; ++i) {
                 const int sx = across ? folded(x + i, width, wrap) : x;
                 const int sy = across ? y : folded(y + i, height, wrap);
-                v += kernel[static_cast<std::size_t>(i + radius)] * in[static_cast<std::size_t>(sy * width + sx)];
+                v += kernel[static_cast<std::size_t>(i + radius)] *
+                     in[static_cast<std::size_t>(sy * width + sx)];
             }
             out[static_cast<std::size_t>(y * width + x)] = v / sum;
         }
@@ -97,14 +99,18 @@ TEST_P(ExplainedAgainstDirect, within_1e_4) {
     const Pair pair = make_pair(width, height, 5);
     for (const Wrap wrap : {Wrap::repeat, Wrap::clamp}) {
         const Comparison c = compare_heights(pair.reconstruction, pair.input, wrap);
-        EXPECT_NEAR(c.explained, direct_explained(pair.reconstruction, pair.input, wrap == Wrap::repeat), 1e-4)
+        EXPECT_NEAR(c.explained, direct_explained(pair.reconstruction, pair.input, wrap == Wrap::repeat),
+                    1e-4)
             << width << " x " << height << (wrap == Wrap::repeat ? " repeat" : " clamp");
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(sizes, ExplainedAgainstDirect,
-                         ::testing::Values(Size{64, 64}, Size{257, 190}, Size{230, 391}, Size{500, 128}, Size{420, 420}),
-                         [](const auto& p) { return std::to_string(p.param.width) + "x" + std::to_string(p.param.height); });
+                         ::testing::Values(Size{64, 64}, Size{257, 190}, Size{230, 391}, Size{500, 128},
+                                           Size{420, 420}),
+                         [](const auto& p) {
+                             return std::to_string(p.param.width) + "x" + std::to_string(p.param.height);
+                         });
 
 TEST(compare_heights, equal_maps_are_explained_entirely) {
     const Pair pair = make_pair(70, 50, 1);
@@ -167,14 +173,17 @@ TEST(subtract_smooth, takes_soft_ground_and_leaves_detail) {
     Image map(n, n);
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
-            const double soft = std::cos(2.0 * M_PI * x / n), detail = 0.1 * std::cos(2.0 * M_PI * 40.0 * x / n);
+            const double soft = std::cos(2.0 * M_PI * x / n),
+                         detail = 0.1 * std::cos(2.0 * M_PI * 40.0 * x / n);
             map.at(x, y) = static_cast<float>(soft + detail);
         }
     const Image high = subtract_smooth(map, Wrap::repeat);
-    // The Gaussian of sigma n / 16 passes a wave of period n by exp(-2 (pi / 16)^2), and one of period n / 40 not at all.
+    // The Gaussian of sigma n / 16 passes a wave of period n by exp(-2 (pi / 16)^2), and one of period n / 40
+    // not at all.
     const double left = 1.0 - std::exp(-2.0 * M_PI * M_PI / 256.0);
     for (int x = 0; x < n; ++x) {
-        const double expected = left * std::cos(2.0 * M_PI * x / n) + 0.1 * std::cos(2.0 * M_PI * 40.0 * x / n);
+        const double expected =
+            left * std::cos(2.0 * M_PI * x / n) + 0.1 * std::cos(2.0 * M_PI * 40.0 * x / n);
         EXPECT_NEAR(static_cast<double>(high.at(x, 100)), expected, 2e-4) << x;
     }
 }

@@ -59,7 +59,8 @@ TEST(trace_contours, straight_edges_are_exact_on_a_ramp) {
     ASSERT_EQ(contours.size(), 1u);
     EXPECT_FALSE(contours[0].closed);
     for (const Vec2 p : contours[0].points) EXPECT_NEAR(0.1 * p.x + 0.03 * p.y, 1.0, 1e-6);
-    // Ends lie on the outermost rows of samples; growing values to the right are on the left of an upward way.
+    // Ends lie on the outermost rows of samples; growing values to the right are on the left of an upward
+    // way.
     EXPECT_EQ(contours[0].points.front().y, 0.5);
     EXPECT_EQ(contours[0].points.back().y, 9.5);
 }
@@ -93,7 +94,8 @@ TEST(trace_contours, a_band_across_a_wrapping_map_has_a_period) {
 TEST(trace_contours, a_saddle_joins_by_the_mean) {
     Image saddle(4, 4, 0.0f);
     saddle.at(1, 1) = saddle.at(2, 2) = 1.0f;
-    EXPECT_EQ(trace_contours(saddle, 0.4f, false).size(), 1u);  // mean 0.5 is high: one figure of eight's outline
+    EXPECT_EQ(trace_contours(saddle, 0.4f, false).size(),
+              1u);  // mean 0.5 is high: one figure of eight's outline
     EXPECT_EQ(trace_contours(saddle, 0.6f, false).size(), 2u);
 }
 

@@ -128,15 +128,18 @@ TEST(fit_curve, a_line_runs_smoothly_into_an_arc) {
     EXPECT_EQ(count(fit, ElementKind::line), 2u);
     EXPECT_EQ(count(fit, ElementKind::quadratic), 2u);
     EXPECT_EQ(corners(fit), 1u);  // the start
-    EXPECT_NEAR(std::atan2(fit.elements[0].p2.y - fit.elements[0].p0.y, fit.elements[0].p2.x - fit.elements[0].p0.x), 0.0,
-                1e-3);
+    EXPECT_NEAR(
+        std::atan2(fit.elements[0].p2.y - fit.elements[0].p0.y, fit.elements[0].p2.x - fit.elements[0].p0.x),
+        0.0, 1e-3);
 }
 
 TEST(fit_curve, a_hexagon_has_six_lines_at_any_turn) {
     for (int k = 0; k < 12; ++k) {
         Row shape;
         for (int i = 0; i < 6; ++i)
-            shape.push_back(Vec2{50, 50} + Vec2{std::cos(i * M_PI / 3 + k * 0.09), std::sin(i * M_PI / 3 + k * 0.09)} * 30.0);
+            shape.push_back(Vec2{50, 50} +
+                            Vec2{std::cos(i * M_PI / 3 + k * 0.09), std::sin(i * M_PI / 3 + k * 0.09)} *
+                                30.0);
         Row row = sampled(shape, true, 0.8);
         add_noise(row, 0.05, static_cast<unsigned>(k));
         const FitResult fit = fitted(row, {.tolerance = 0.2, .closed = true});
@@ -201,12 +204,14 @@ TEST(fit_curve, first_point_covers_the_row_in_order) {
 TEST(fit_curve, small_loops_keep_an_inside) {
     for (int n = 2; n < 20; ++n) {
         Row row;
-        for (int i = 0; i < n; ++i) row.push_back(Vec2{5, 5} + Vec2{std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n)} * 0.6);
+        for (int i = 0; i < n; ++i)
+            row.push_back(Vec2{5, 5} + Vec2{std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n)} * 0.6);
         const FitResult fit = fitted(row, {.tolerance = 0.3, .closed = true});
         double twice = 0.0;
         for (const Element& e : fit.elements) {
             const Vec2 middle = e.kind == ElementKind::line ? e.p0 : e.p1;
-            twice += cross(e.p0 - Vec2{5, 5}, middle - Vec2{5, 5}) + cross(middle - Vec2{5, 5}, e.p2 - Vec2{5, 5});
+            twice +=
+                cross(e.p0 - Vec2{5, 5}, middle - Vec2{5, 5}) + cross(middle - Vec2{5, 5}, e.p2 - Vec2{5, 5});
         }
         EXPECT_GT(std::abs(twice), 0.05) << n;
     }
