@@ -27,6 +27,8 @@ constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e4;
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
 constexpr double kRoughThreshold = 0.05;    // Huber's, before anything is fitted
+constexpr double kTidyMayCost = 1.05;        // of the misfit, before ends are settled
+constexpr int kSettleRounds = 4;
 constexpr int kSplitRounds = 2;
 constexpr double kSplitMustGain = 0.95;      // of the misfit
 constexpr double kStrain = 0.02;             // texels, root mean square: an arc that is farther off is split
@@ -148,12 +150,44 @@ class Refinement {
         return best;
     }
 
-    // The pattern with ends where the map shows them, or as it is when that fits no better.
+    // The pattern with ends where the map shows them; each stays that fits no better around where it moved.
     Pattern with_settled_ends(const Pattern& pattern) const {
-        Pattern settled = pattern;
-        if (!settle_ends(settled, map_, side_)) return pattern;
-        const Result<double> before = misfit(pattern, kRoughThreshold), after = misfit(settled, kRoughThreshold);
-        return before && after && *after < *before ? settled : pattern;
+        const Result<std::vector<Residual>> before = residuals(pattern);
+        if (!before) return pattern;
+        std::vector<std::uint8_t> held;
+        for (int round = 0; round < kSettleRounds; ++round) {
+            Pattern settled = pattern;
+            const std::vector<MovedEnd> moved = settle_ends(settled, map_, side_, held);
+            const Result<std::vector<Residual>> after = residuals(settled);
+            if (moved.empty() || !after) return pattern;
+            bool any_held = false;
+            for (const MovedEnd& end : moved) {
+                if (window_cost(*after, end.window) < window_cost(*before, end.window)) continue;
+                if (held.size() <= end.end) held.resize(end.end + 1, 0);
+                held[end.end] = 1;
+                any_held = true;
+            }
+            const bool gains = robust_cost(*after, kRoughThreshold) < robust_cost(*before, kRoughThreshold);
+            if (gains && (!any_held || round + 1 == kSettleRounds)) return settled;
+        }
+        return pattern;
+    }
+
+    double window_cost(const std::vector<Residual>& all, const Box& window) const {
+        const auto index = [](double x, int count) { return std::clamp(static_cast<int>(std::floor(x)), 0, count - 1); };
+        std::vector<Residual> part;
+        for (int y = index(window.low.y / side_.y, map_.height); y <= index(window.high.y / side_.y, map_.height); ++y)
+            for (int x = index(window.low.x / side_.x, map_.width); x <= index(window.high.x / side_.x, map_.width); ++x)
+                part.push_back(all[static_cast<std::size_t>(y) * map_.width + x]);
+        return robust_cost(part, kRoughThreshold);
+    }
+
+    // The pattern with tails that go on as arcs, unless that fits worse.
+    Pattern with_tidy_tails(const Pattern& pattern) const {
+        Pattern tidy = pattern;
+        if (!tidy_tails(tidy)) return pattern;
+        const Result<double> before = misfit(pattern, kRoughThreshold), after = misfit(tidy, kRoughThreshold);
+        return before && after && *after < kTidyMayCost * *before ? tidy : pattern;
     }
 
     // The pattern with curves for the polylines that go round, unless that fits worse.
@@ -164,16 +198,23 @@ class Refinement {
         return before && after && *after < *before ? curved : pattern;
     }
 
-    // Robust misfit over the whole map: patterns whose features cover different texels compare fairly.
-    Result<double> misfit(const Pattern& pattern, double threshold) const {
+    // Model minus map of every texel.
+    Result<std::vector<Residual>> residuals(const Pattern& pattern) const {
         const Result<ResolvedPattern> resolved = resolve_pattern(pattern, resolve_options());
         if (!resolved) return resolved.error();
         ForwardOptions forward;
         forward.threads = options_.threads;
         const Image model = Forward(*resolved, map_, side_).image(forward);
-        std::vector<Residual> residuals(model.texels.size());
-        for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k].value = model.texels[k] - map_.texels[k];
-        return robust_cost(residuals, threshold);
+        std::vector<Residual> out(model.texels.size());
+        for (std::size_t k = 0; k < out.size(); ++k) out[k].value = model.texels[k] - map_.texels[k];
+        return out;
+    }
+
+    // Robust misfit over the whole map: patterns whose features cover different texels compare fairly.
+    Result<double> misfit(const Pattern& pattern, double threshold) const {
+        const Result<std::vector<Residual>> all = residuals(pattern);
+        if (!all) return all.error();
+        return robust_cost(*all, threshold);
     }
 
   private:
@@ -268,8 +309,8 @@ Result<State> refine_in_stages(const Refinement& refinement, const Pattern& star
                                RefineReport& report) {
     Pattern first = start;
     if (options.profiles) make_symmetric(first);
+    if (options.elements) first = refinement.with_tidy_tails(refinement.with_curves(first));
     if (options.ends) first = refinement.with_settled_ends(first);
-    if (options.elements) first = refinement.with_curves(first);
     Result<State> best = refinement.run(first, report);
     if (!best) return best;
     Pattern simpler = best->pattern;

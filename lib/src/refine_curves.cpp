@@ -9,6 +9,7 @@ namespace {
 constexpr double kLeastTurn = 0.02;       // radians at a corner of a polyline that means a curve
 constexpr double kMostTurn = 0.55;
 constexpr double kTurnPerQuadratic = 0.5; // an arc of 29 degrees is off by 1/2000 of its radius at most
+constexpr double kStrayTurn = 0.4;         // radians
 constexpr double kLongestLine = 24.0;     // texels
 constexpr std::size_t kLeastLines = 4;
 
@@ -136,6 +137,50 @@ bool curve_polylines(Pattern& pattern) {
     bool changed = false;
     for (Path& path : pattern.paths)
         if (path.elements.size() >= kLeastLines) changed |= PolylineCurver(path).run();
+    return changed;
+}
+
+namespace {
+
+void reverse(Path& path) {
+    std::reverse(path.elements.begin(), path.elements.end());
+    for (Element& e : path.elements) {
+        std::swap(e.p0, e.p2);
+        std::swap(e.width0, e.width1);
+        std::swap(e.height0, e.height1);
+    }
+}
+
+// At the end of the path only.
+bool tidy_tail(Path& path, double reach) {
+    if (path.elements.size() < 2) return false;
+    Element& last = path.elements.back();
+    const Element& before = path.elements[path.elements.size() - 2];
+    const Vec2 in = unit(before.kind == ElementKind::line ? before.p2 - before.p0 : before.p2 - before.p1);
+    const Vec2 out = unit(last.kind == ElementKind::line ? last.p2 - last.p0 : last.p1 - last.p0);
+    const double angle = std::atan2(std::abs(cross(in, out)), dot(in, out));
+    const double size = length(last.p2 - last.p0);
+    if (angle > kStrayTurn && size < reach) return path.elements.pop_back(), true;
+    if (last.kind != ElementKind::line || before.kind != ElementKind::quadratic) return false;
+    if (angle < 0.03 || angle > 2.0 * kMostTurn || size > 1.5 * length(before.p2 - before.p0)) return false;
+    last.kind = ElementKind::quadratic;
+    last.p1 = last.p0 + in * (0.5 * size);
+    return true;
+}
+
+}  // namespace
+
+bool tidy_tails(Pattern& pattern) {
+    bool changed = false;
+    for (Path& path : pattern.paths) {
+        const std::vector<ProfilePoint>& points = pattern.profiles[path.profile].points;
+        if (path.closed || points.front().h != points.back().h) continue;
+        const double reach = std::max(-points.front().b, points.back().b);
+        changed |= tidy_tail(path, reach);
+        reverse(path);
+        changed |= tidy_tail(path, reach);
+        reverse(path);
+    }
     return changed;
 }
 

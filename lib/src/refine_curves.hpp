@@ -11,6 +11,10 @@ namespace burin::refinement {
 // their corners. Returns whether anything changed. Lengths in texels.
 bool curve_polylines(Pattern& pattern);
 
+// The last line of a path that leaves an arc at a small angle becomes a quadratic that goes on smoothly; a stray last
+// element that leaves at a large angle and is shorter than the profile is wide goes. Returns whether anything changed.
+bool tidy_tails(Pattern& pattern);
+
 // Splits the quadratics (path, element) in two equal parts each.
 struct ElementIndex {
     int path = 0, element = 0;

@@ -16,11 +16,14 @@ namespace {
 constexpr double kStride = 0.5;
 constexpr double kLookBack = 40.0;
 constexpr double kLookAhead = 80.0;
-constexpr double kLeastMove = 1.5;
+constexpr double kLeastMove = 1.5;    // outwards
+constexpr double kLeastReturn = 4.0;  // inwards: an end is seen less sharply than the fit will find it
+constexpr double kCurveAhead = 0.5;     // of a quadratic's length: so far it is followed beyond its end
 constexpr double kGap = 1.5;           // a stretch of mismatch that ends a path
 constexpr double kMatch = 0.15;        // mean difference over the section
 constexpr double kMiddleMatch = 0.25;  // difference in the middle
 constexpr double kNear = 2.5;          // ends that meet
+constexpr double kLongestCorner = 40.0;
 constexpr double kFacing = -0.94;      // cosine between the outward tangents of ends that continue each other
 constexpr double kSmallStep = 48.0;    // greatest side of a closed step that may be a leftover
 constexpr double kBucket = 16.0;
@@ -30,12 +33,16 @@ struct End {
     std::size_t path = 0;
     bool at_start = false;
     Vec2 place, outward;
+    Vec2 from;              // where it was
     bool moved = false;
+    bool on_line = false;  // lies on another path's line: a T already
+    double shown = 0.0;    // how far ahead the map shows at least the middle of the section
 };
 
 struct Decision {
     double move = 0.0;               // along the outward tangent; negative: taken back
     std::optional<std::size_t> join;  // an end that this one continues into
+    std::optional<Vec2> meet;         // a place on another path's line where this one ends
 };
 
 Vec2 point_of(const Element& e, double s) {
@@ -71,18 +78,24 @@ double reach_of(const Profile& profile) { return std::max(-profile.points.front(
 
 class EndSettler {
   public:
-    EndSettler(Pattern& pattern, const Image& map, Vec2 side) : pattern_(pattern), map_(map), side_(side) {}
+    EndSettler(Pattern& pattern, const Image& map, Vec2 side, const std::vector<std::uint8_t>& held)
+        : pattern_(pattern), map_(map), side_(side), held_(held) {}
 
-    bool run() {
+    std::vector<MovedEnd> run() {
         find_ends();
         fill_buckets();
+        for (End& end : ends_)
+            end.on_line = any_near(end, end.place, 0,
+                                   [&](std::size_t, const Element& e) { return distance_to(e, end.place) < 0.1; });
+        for (std::size_t i = 0; i < ends_.size(); ++i)
+            end_buckets_[{bucket(ends_[i].place.x), bucket(ends_[i].place.y)}].push_back(i);
         std::vector<Decision> decisions;
-        for (std::size_t i = 0; i < ends_.size(); ++i) decisions.push_back(decide(i));
-        bool changed = false;
-        for (std::size_t i = 0; i < ends_.size(); ++i) changed |= carry_out(i, decisions[i]);
-        changed |= join_corners();
-        if (changed) drop_leftovers();
-        return changed;
+        for (std::size_t i = 0; i < ends_.size(); ++i) decisions.push_back(is_held(i) ? Decision{} : decide(i));
+        for (std::size_t i = 0; i < ends_.size(); ++i) carry_out(i, decisions[i]);
+        join_corners();
+        const std::vector<MovedEnd> moved = moved_ends();
+        if (!drawn_out_.empty()) drop_leftovers();
+        return moved;
     }
 
   private:
@@ -97,12 +110,28 @@ class EndSettler {
         return end.at_start ? elements.front() : elements.back();
     }
 
+    bool is_held(std::size_t end) const { return end < held_.size() && held_[end]; }
+
+    std::vector<MovedEnd> moved_ends() const {
+        std::vector<MovedEnd> moved;
+        for (std::size_t i = 0; i < ends_.size(); ++i) {
+            const End& end = ends_[i];
+            if (!end.moved) continue;
+            const double reach = reach_of(pattern_.profiles[pattern_.paths[end.path].profile]) + 4.0;
+            MovedEnd entry{i, {}};
+            entry.window.low = {std::min(end.from.x, end.place.x) - reach, std::min(end.from.y, end.place.y) - reach};
+            entry.window.high = {std::max(end.from.x, end.place.x) + reach, std::max(end.from.y, end.place.y) + reach};
+            moved.push_back(entry);
+        }
+        return moved;
+    }
+
     void find_ends() {
         for (std::size_t p = 0; p < pattern_.paths.size(); ++p) {
             const Path& path = pattern_.paths[p];
             if (path.closed || path.elements.empty() || is_step(pattern_.profiles[path.profile])) continue;
-            ends_.push_back({p, true, path.elements.front().p0, -tangent_of(path.elements.front(), 0.0), false});
-            ends_.push_back({p, false, path.elements.back().p2, tangent_of(path.elements.back(), 1.0), false});
+            ends_.push_back({p, true, path.elements.front().p0, -tangent_of(path.elements.front(), 0.0), path.elements.front().p0});
+            ends_.push_back({p, false, path.elements.back().p2, tangent_of(path.elements.back(), 1.0), path.elements.back().p2});
         }
     }
 
@@ -208,10 +237,16 @@ class EndSettler {
 
     // An end that faces this one and lies at p.
     std::optional<std::size_t> facing(std::size_t own, Vec2 p, Vec2 outward) const {
-        for (std::size_t i = 0; i < ends_.size(); ++i) {
-            if (i == own || ends_[i].path == ends_[own].path) continue;
-            if (pattern_.paths[ends_[i].path].profile != pattern_.paths[ends_[own].path].profile) continue;
-            if (length(ends_[i].place - p) < kNear && dot(ends_[i].outward, outward) < kFacing) return i;
+        for (int y = bucket(p.y - kNear); y <= bucket(p.y + kNear); ++y) {
+            for (int x = bucket(p.x - kNear); x <= bucket(p.x + kNear); ++x) {
+                const auto found = end_buckets_.find({x, y});
+                if (found == end_buckets_.end()) continue;
+                for (const std::size_t i : found->second) {
+                    if (i == own || is_held(i) || ends_[i].path == ends_[own].path) continue;
+                    if (pattern_.paths[ends_[i].path].profile != pattern_.paths[ends_[own].path].profile) continue;
+                    if (length(ends_[i].place - p) < kNear && dot(ends_[i].outward, outward) < kFacing) return i;
+                }
+            }
         }
         return std::nullopt;
     }
@@ -224,14 +259,17 @@ class EndSettler {
         const double whole = length_of(e);
         std::optional<double> last_clear, last_any;
         double gap = 0.0;
+        bool torn = false;  // the map stops showing the path before its end
         for (double a = -std::min(kLookBack, 0.8 * whole); a <= kLookAhead && gap <= kGap; a += kStride) {
             const double s = end.at_start ? -a / whole : 1.0 + a / whole;
             const bool inside = a < 0.0;
-            const Vec2 p = inside ? point_of(e, s) : end.place + end.outward * a;
-            const Vec2 t = inside ? tangent_of(e, s) : (end.at_start ? -end.outward : end.outward);
+            const bool on_curve_ahead = e.kind == ElementKind::quadratic && a < kCurveAhead * whole;
+            const bool curve = inside || on_curve_ahead;
+            const Vec2 p = curve ? point_of(e, s) : end.place + end.outward * a;
+            const Vec2 t = curve ? tangent_of(e, s) : (end.at_start ? -end.outward : end.outward);
             if (outside(p)) break;
             if (a > -kNear)
-                if (const std::optional<std::size_t> other = facing(index, p, end.outward)) return {0.0, other};
+                if (const std::optional<std::size_t> other = facing(index, p, end.outward)) return {0.0, other, std::nullopt};
             const Look look = look_at(section, p, t);
             const bool over = look != Look::all && covered(end, p, reach);
             if (look == Look::all) {
@@ -242,11 +280,71 @@ class EndSettler {
                 gap = 0.0;
             } else {
                 gap += kStride;
+                torn |= gap > kGap && inside;
             }
         }
-        if (!last_clear || *last_any > *last_clear + kLeastMove) return {};
+        if (last_any) ends_[index].shown = *last_any;
+        if (torn && last_any) {
+            const double back = *last_any + 0.5 * kStride - section.beyond;
+            return {back < -kLeastMove ? back : 0.0, std::nullopt, std::nullopt};
+        }
+        if (!last_clear || *last_any > *last_clear + kLeastMove) return {0.0, std::nullopt, meeting(index)};
         const double move = *last_clear + 0.5 * kStride - section.beyond;
-        return {std::abs(move) < kLeastMove ? 0.0 : move, std::nullopt};
+        if (move > -kLeastReturn && move < kLeastMove) return {};
+        return {move, std::nullopt, std::nullopt};
+    }
+
+    // Calls visit(path, element) for other elements near p; stops when it returns true.
+    template <typename Visit>
+    bool any_near(const End& end, Vec2 p, int span, Visit visit) const {
+        for (int y = bucket(p.y) - span; y <= bucket(p.y) + span; ++y) {
+            for (int x = bucket(p.x) - span; x <= bucket(p.x) + span; ++x) {
+                const auto found = buckets_.find({x, y});
+                if (found == buckets_.end()) continue;
+                for (const auto& [path, index] : found->second) {
+                    const Path& other = pattern_.paths[path];
+                    const std::size_t own = end.at_start ? 0 : other.elements.size() - 1;
+                    if (path == end.path && index == own) continue;
+                    if (is_step(pattern_.profiles[other.profile])) continue;
+                    if (visit(path, other.elements[index])) return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    // Where the way ahead of an end first meets another path's line, as far as the map shows the path's middle.
+    std::optional<Vec2> meeting(std::size_t index) const {
+        const End& end = ends_[index];
+        if (end.on_line || end.shown <= 0.0) return std::nullopt;
+        double nearest = std::min(end.shown + 1.0, kBucket);
+        std::optional<Vec2> place;
+        any_near(end, end.place, 1, [&](std::size_t, const Element& e) {
+            const int pieces = e.kind == ElementKind::line ? 1 : 16;
+            for (int k = 0; k < pieces; ++k) {
+                const Vec2 a = point_of(e, double(k) / pieces), d = point_of(e, double(k + 1) / pieces) - a;
+                const double turn = cross(end.outward, d);
+                if (std::abs(turn) < 0.2 * length(d)) continue;
+                const double along = cross(a - end.place, d) / turn;
+                const double share = cross(a - end.place, end.outward) / turn;
+                if (along < 0.1 || along > nearest || share < 0.0 || share > 1.0) continue;
+                const Vec2 p = lerp(a, a + d, share);
+                // Near the other's end it is a corner.
+                if (length(p - e.p0) < 2.0 * kNear || length(p - e.p2) < 2.0 * kNear) continue;
+                nearest = along;
+                place = on_curve(e, (k + share) / pieces, p);
+            }
+            return false;
+        });
+        return place;
+    }
+
+    static Vec2 on_curve(const Element& e, double s, Vec2 p) {
+        for (int i = 0; i < 8 && e.kind == ElementKind::quadratic; ++i) {
+            const Vec2 t = 2.0 * lerp(e.p1 - e.p0, e.p2 - e.p1, s);
+            s = std::clamp(s + dot(p - point_of(e, s), t) / std::max(1e-12, dot(t, t)), 0.0, 1.0);
+        }
+        return point_of(e, s);
     }
 
     bool outside(Vec2 p) const {
@@ -271,11 +369,16 @@ class EndSettler {
             set_place(other, middle);
             return true;
         }
+        if (decision.meet && !end.moved) {
+            drawn_out_.push_back({end.place, *decision.meet});
+            return set_place(end, *decision.meet), true;
+        }
         if (decision.move == 0.0 || end.moved) return false;
         if (decision.move < 0.0) return take_back(end, -decision.move);
         const Vec2 place = end.place + end.outward * decision.move;
         drawn_out_.push_back({end.place, place});
         if (last_element(end).kind == ElementKind::line) return set_place(end, place), true;
+        if (decision.move < kCurveAhead * length_of(last_element(end))) return stretch(end, decision.move);
         Element line = last_element(end);
         line.kind = ElementKind::line;
         line.p0 = end.at_start ? place : end.place;
@@ -289,6 +392,17 @@ class EndSettler {
         return true;
     }
 
+    // A quadratic goes on as the same parabola.
+    bool stretch(End& end, double by) {
+        Element& e = last_element(end);
+        const double s = by / length_of(e);
+        const double from = end.at_start ? -s : 0.0, to = end.at_start ? 1.0 : 1.0 + s;
+        const Vec2 place = point_of(e, end.at_start ? from : to);
+        e.p1 = lerp(lerp(e.p0, e.p1, from), lerp(e.p1, e.p2, from), to);
+        set_place(end, place);
+        return true;
+    }
+
     bool take_back(End& end, double by) {
         Element& e = last_element(end);
         const double s = std::clamp(by / length_of(e), 0.0, 0.8);
@@ -299,25 +413,44 @@ class EndSettler {
         return true;
     }
 
-    // Ends that came near each other by being drawn out meet where their lines do.
-    bool join_corners() {
-        bool changed = false;
+    // Lines whose ways ahead meet, with the map showing both of them as far as that, meet there in a corner.
+    void join_corners() {
         for (std::size_t i = 0; i < ends_.size(); ++i) {
-            for (std::size_t j = i + 1; j < ends_.size(); ++j) {
-                End &a = ends_[i], &b = ends_[j];
-                if ((!a.moved && !b.moved) || a.place == b.place || length(a.place - b.place) > 2.0 * kNear) continue;
-                if (last_element(a).kind != ElementKind::line || last_element(b).kind != ElementKind::line) continue;
-                const double turn = cross(a.outward, b.outward);
-                if (std::abs(turn) < 0.2) continue;
-                const double along = cross(b.place - a.place, b.outward) / turn;
-                const Vec2 corner = a.place + a.outward * along;
-                if (std::abs(along) > 2.0 * kNear || length(corner - b.place) > 2.0 * kNear) continue;
-                set_place(a, corner);
-                set_place(b, corner);
-                changed = true;
+            std::optional<std::size_t> partner;
+            Vec2 corner;
+            double nearest = kLongestCorner;
+            if (ends_[i].on_line || is_held(i)) continue;
+            for (std::size_t j = 0; j < ends_.size(); ++j) {
+                const std::optional<Vec2> at =
+                    i == j || is_held(i) || is_held(j) ? std::nullopt : corner_of(ends_[i], ends_[j]);
+                if (!at || length(*at - ends_[i].place) + length(*at - ends_[j].place) >= nearest) continue;
+                nearest = length(*at - ends_[i].place) + length(*at - ends_[j].place);
+                corner = *at;
+                partner = j;
+            }
+            if (!partner) continue;
+            for (End* end : {&ends_[i], &ends_[*partner]}) {
+                drawn_out_.push_back({end->place, corner});
+                set_place(*end, corner);
+                end->on_line = true;
             }
         }
-        return changed;
+    }
+
+    std::optional<Vec2> corner_of(const End& a, const End& b) {
+        if (a.on_line || b.on_line || a.place == b.place) return std::nullopt;
+        if (length(a.place - b.place) > kLongestCorner) return std::nullopt;
+        if (pattern_.paths[a.path].profile != pattern_.paths[b.path].profile) return std::nullopt;
+        if (last_element(a).kind != ElementKind::line || last_element(b).kind != ElementKind::line) return std::nullopt;
+        const double turn = cross(a.outward, b.outward);
+        if (std::abs(turn) < 0.2) return std::nullopt;
+        const double ahead_a = cross(b.place - a.place, b.outward) / turn;
+        const double ahead_b = cross(b.place - a.place, a.outward) / turn;
+        const auto shown = [](const End& end, double ahead) {
+            return ahead > -2.0 * kNear && ahead < (end.moved ? 2.0 * kNear : end.shown + kNear);
+        };
+        if (!shown(a, ahead_a) || !shown(b, ahead_b)) return std::nullopt;
+        return a.place + a.outward * ahead_a;
     }
 
     void drop_leftovers() {
@@ -339,15 +472,17 @@ class EndSettler {
     Pattern& pattern_;
     const Image& map_;
     const Vec2 side_;
+    const std::vector<std::uint8_t>& held_;
     std::vector<End> ends_;
     std::map<std::pair<int, int>, std::vector<std::pair<std::size_t, std::size_t>>> buckets_;
+    std::map<std::pair<int, int>, std::vector<std::size_t>> end_buckets_;
     std::vector<std::pair<Vec2, Vec2>> drawn_out_;
 };
 
 }  // namespace
 
-bool settle_ends(Pattern& pattern, const Image& map, Vec2 side) {
-    return EndSettler(pattern, map, side).run();
+std::vector<MovedEnd> settle_ends(Pattern& pattern, const Image& map, Vec2 side, const std::vector<std::uint8_t>& held) {
+    return EndSettler(pattern, map, side, held).run();
 }
 
 }  // namespace burin::refinement

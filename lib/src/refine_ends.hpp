@@ -5,13 +5,22 @@
 // paths lie over it, only the middle counts.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include <burin/image.hpp>
 #include <burin/pattern.hpp>
 
 namespace burin::refinement {
 
-// The pattern in texels, heights in map scale. Returns whether anything changed. May add a line to a path that ended
-// in a quadratic, and takes away small closed steps that a drawn-out path now explains.
-bool settle_ends(Pattern& pattern, const Image& map, Vec2 side);
+// An end that was moved, and the part of the plane where that shows.
+struct MovedEnd {
+    std::size_t end = 0;  // counted over the starts and ends of the pattern's open grooves and ridges, in order
+    Box window;
+};
+
+// The pattern in texels, heights in map scale. May add a line to a path that ended in a quadratic, and takes away small
+// closed steps that a drawn-out path explains. `held`: ends that stay, by number; missing ones may move.
+std::vector<MovedEnd> settle_ends(Pattern& pattern, const Image& map, Vec2 side, const std::vector<std::uint8_t>& held);
 
 }  // namespace burin::refinement

@@ -17,7 +17,7 @@ namespace burin {
 
 struct RefineOptions {
     int iterations = 12;              // most Gauss-Newton steps; stops earlier when nothing moves. >= 0
-    double max_shift_texels = 1.5;    // no control point ends farther than this from where it began. > 0
+    double max_shift_texels = 2.5;    // no control point ends farther than this from where it began. > 0
     bool positions = true;            // control points, junctions, ends
     bool profiles = true;             // offsets b and heights h of the profiles
     bool levels = true;               // levels of the regions
