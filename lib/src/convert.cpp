@@ -74,9 +74,6 @@ void count_elements(const ResolvedPattern& pattern, double texels_per_metre, Con
 constexpr double kPathLikeShare = 0.35;
 constexpr double kAccidentShare = 0.1;
 
-// Even a tiny map may have a few paths.
-constexpr std::size_t kLeastBudget = 8192;
-
 // The figures of the textures as they are stored.
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
                ConvertStats& stats) {
@@ -132,6 +129,13 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     PathDetail detail = describe_pattern(*resolved, *textures);
     detail.tex_coord = options.attach.tex_coord;
     return Packed{std::move(*textures), std::move(detail)};
+}
+
+// A sixteenth of the map's 8-bit size; above 1024 x 1024 it stays at 63 KiB until that is a sixty-fourth, since a map
+// drawn at twice the resolution does not hold twice the paths. Even a tiny map may have a few.
+std::size_t default_budget(std::size_t texels) {
+    constexpr std::size_t kLeast = 8192, kUsual = 63 * 1024;
+    return std::max(kLeast, std::min(texels / 16, std::max(kUsual, texels / 64)));
 }
 
 // A pattern, its textures, and what they were measured to explain.
@@ -220,9 +224,8 @@ Result<Converted> convert_map(const HeightMap& map, const Model& model, const Co
     Converted converted;
     std::vector<std::pair<std::string, double>> seconds;
     StageClock clock(progress, seconds);
-    const std::size_t texels = map.image.texels.size();
     const std::size_t budget = options.max_texture_bytes > 0 ? options.max_texture_bytes
-                                                             : std::max(kLeastBudget, texels / 16);
+                                                             : default_budget(map.image.texels.size());
     auto candidate = trace_within(map, options, budget, progress, clock);
     const double traced_explained = candidate ? candidate->stats.explained : 0.0;
     if (candidate) candidate = without_accidents(std::move(*candidate), map, options, budget, clock);

@@ -215,7 +215,7 @@ std::vector<FittedChain> fit_within(Traced& traced, const Lattice& lattice, cons
                                     std::size_t budget, Vectorized& result, int threads) {
     const double energy = result.energy;
     double share = kLeastRegionShare;
-    const double loosest = std::max(1.2, 0.0007 * std::min(lattice.width, lattice.height));
+    const double loosest = std::max(1.2, 0.0012 * std::min(lattice.width, lattice.height));
     result.tolerance = options.tolerance > 0.0 ? options.tolerance : 0.3;
     // Polylines are fast and tell how many elements to expect; the curves, which need fewer, are fitted once at the end.
     const std::size_t most = budget * 5 / 4;
@@ -225,7 +225,7 @@ std::vector<FittedChain> fit_within(Traced& traced, const Lattice& lattice, cons
         lines = count_lines(traced.lines, result.tolerance);
         steps = count_lines(traced.steps, result.tolerance);
     }
-    for (int round = 0; round < 16 && steps > most * 3 / 4; ++round) {
+    for (int round = 0; round < 8 && steps > most * 3 / 4; ++round) {
         share *= 2.0;
         merge_regions(traced.flattened, lattice, result.noise, share * energy, traced.regions);
         traced.steps = trace_steps(traced.flattened, lattice, traced.regions);

@@ -146,11 +146,15 @@ CrossSection measure_cross_section(const Chain& chain, const Image& map, const L
     return section;
 }
 
+constexpr double kBroad = 6.0;  // half-width in texels
+
 // A line has one section all along it, and the same ground on both sides. What fails this is the rim of a plateau or a
 // blob, which the step contours describe better; and so do they a wide line whose rims are ragged.
 bool is_line(const Chain& chain, const Image& map, const Lattice& lattice, double noise) {
     const double extent = chain_length(chain) + 2.0 * chain.half_width;
     if (extent < 3.0 * chain.half_width + 3.0 || chain.contrast < 3.0 * noise) return false;
+    // A short broad bar, or a broad piece of a net of joints, is an area with a rim.
+    if (chain.half_width > kBroad && extent < 20.0 * chain.half_width) return false;
     // A thin line may have a rim of its own on one side: there the ground lies farther out.
     const double near = std::max(3.0, 1.6 * chain.half_width + 1.5);
     for (const double reach : {near, 4.0 * near}) {
@@ -226,7 +230,8 @@ std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map
             kept.push_back(std::move(chain));
             continue;
         }
-        const std::size_t at = splits < 3 && !chain.closed && chain.points.size() >= 24 ? find_change(chain, map, lattice) : 0;
+        const bool splits_well = splits < 3 && !chain.closed && chain.points.size() >= 24 && chain.half_width <= kBroad;
+        const std::size_t at = splits_well ? find_change(chain, map, lattice) : 0;
         if (at == 0) continue;
         Chain second = chain;
         second.points.erase(second.points.begin(), second.points.begin() + static_cast<std::ptrdiff_t>(at));

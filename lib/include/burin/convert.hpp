@@ -37,7 +37,7 @@ struct ConvertOptions {
     FallbackOptions fallback;
     AttachOptions attach;
     // Both textures together; elements are given up until they fit, as far as that goes. 0: a sixteenth of the map's
-    // 8-bit size, and at least 8 KiB.
+    // 8-bit size, at least 8 KiB, and no more than 63 KiB up to 2048 x 2048.
     std::size_t max_texture_bytes = 0;
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
