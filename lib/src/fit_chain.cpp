@@ -14,15 +14,15 @@ Points::Points(std::vector<Vec2> once, std::vector<double> weight_once, bool is_
       p_(std::move(once)),
       weight_(std::move(weight_once)) {
     if (closed) {
-        shift_ = count;
+        shift_ = 2 * count;
         std::vector<Vec2> all;
-        all.reserve(3 * p_.size());
-        for (const double lap : {-1.0, 0.0, 1.0})
+        all.reserve(5 * p_.size());
+        for (const double lap : {-2.0, -1.0, 0.0, 1.0, 2.0})
             for (const Vec2 p : p_) all.push_back(p + period * lap);
         p_ = std::move(all);
         const std::size_t n = weight_.size();
-        weight_.resize(3 * n);
-        for (std::size_t i = n; i < 3 * n; ++i) weight_[i] = weight_[i - n];
+        weight_.resize(5 * n);
+        for (std::size_t i = n; i < 5 * n; ++i) weight_[i] = weight_[i - n];
     }
     arc_.resize(p_.size());
     for (std::size_t i = 1; i < p_.size(); ++i) arc_[i] = arc_[i - 1] + length(p_[i] - p_[i - 1]);
@@ -63,8 +63,8 @@ PointRange ignored_range(const Chain& chain, const Points& points, long k, doubl
     if (radius == 0.0) return r;
     const Vec2 tip = chain.position(k);
     const long low = chain.line_or_quadratic_before(k), high = chain.line_or_quadratic_after(k);
-    while (r.begin > low && length(points[r.begin - 1] - tip) < radius) --r.begin;
-    while (r.end < high && length(points[r.end] - tip) < radius) ++r.end;
+    while (r.begin > std::max(low, points.first()) && length(points[r.begin - 1] - tip) < radius) --r.begin;
+    while (r.end < std::min(high, points.last()) && length(points[r.end] - tip) < radius) ++r.end;
     return r;
 }
 

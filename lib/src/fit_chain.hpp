@@ -13,8 +13,8 @@
 
 namespace burin::fit {
 
-// The points, indexed from -count to 2 count when closed (three turns, so that an element may straddle the
-// start), else from 0 to count - 1.
+// The points, indexed from -2 count to 3 count - 1 when closed (five turns, so that elements may straddle the
+// start and their neighbours still be looked up), else from 0 to count - 1.
 class Points {
   public:
     Points(std::vector<Vec2> once, std::vector<double> weight_once, bool is_closed, Vec2 turn);
@@ -32,7 +32,8 @@ class Points {
     // Index just past what the chain covers when it starts at 0: an open chain ends with its last point, a
     // closed one with the first point of the next turn.
     long end() const { return closed ? count : count - 1; }
-    long last() const { return closed ? 2 * count - 1 : count - 1; }  // largest index
+    long first() const { return closed ? -2 * count : 0; }            // smallest index
+    long last() const { return closed ? 3 * count - 1 : count - 1; }  // largest index
 
   private:
     std::vector<Vec2> p_;

@@ -393,7 +393,7 @@ void Refiner::set_anchors() {
         const long k = static_cast<long>(i);
         if (!chain_.at(k).corner || at(k).vertex < 0) continue;
         if (!chain_.closed && (k == 0 || k == chain_.size() - 1)) continue;
-        const long border = chain_.begin(k);
+        const long border = std::clamp(chain_.begin(k), points_.first() + 1, points_.last());
         anchors_[i].p = (points_[border - 1] + points_[border]) * 0.5;
         anchors_[i].held = true;
         const Vec2 in = unit(chain_.position(k) - chain_.position(k - 1));
@@ -414,8 +414,8 @@ bool Refiner::is_sound(long k) const {
     const double along = dot(in, chord), whole = dot(chord, chord);
     const double arms = length(in) + length(out);
     const long first = chain_.begin(k), last = std::max(first, chain_.end(k) - 1);
-    const double row =
-        points_.arc(std::min(last, points_.last())) - points_.arc(std::min(first, points_.last()));
+    const double row = points_.arc(std::clamp(last, points_.first(), points_.last())) -
+                       points_.arc(std::clamp(first, points_.first(), points_.last()));
     return along > 0.02 * whole && along < 0.98 * whole && dot(in, out) > -0.77 * length(in) * length(out) &&
            arms < 2.0 * row + 4.0 * std::max(options_.corner_reach, options_.tolerance);
 }
