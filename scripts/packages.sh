@@ -4,8 +4,12 @@
 
 # Packages of the groups named that are not installed, one a line.
 missing_packages() {
-    local group package
-    while read -r group package; do
+    local group package command
+    while read -r group package command; do
+        # A tool that came from elsewhere (Node.js of another source conflicts with Debian's npm) serves as well.
+        if [ -n "$command" ] && command -v "$command" >/dev/null; then
+            continue
+        fi
         for wanted in "$@"; do
             if [ "$group" = "$wanted" ] && ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed'; then
                 echo "$package"
