@@ -20,7 +20,7 @@ $burin check "$asset" --against "$map" --format json >"$work/check.json"
 textures=$(($(value grid_bytes "$work/info.json") + $(value data_bytes "$work/info.json")))
 texels=$(($(value width "$work/map.json") * $(value height "$work/map.json")))
 percent=$(awk -v x="$(value rms "$work/check.json")" 'BEGIN { printf "%.2f", 100 * x }')
-explained=$(awk -v x="$(value explained "$work/check.json")" 'BEGIN { printf "%.1f", 100 * x }')
+explained=$(awk -v x="$(value explained "$work/check.json")" 'BEGIN { printf "%.2f", 100 * x }')
 
 # The close-up: a square of 0.11 of the map's width, as the shader draws it and as the raster has it.
 side=400
