@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kRowsPerPart = 4;      // tile rows that are summed together, whatever the number of threads
 constexpr double kStraight = 0.004;  // curvature per texel below which an arc is integrated like a line
+constexpr int kProbes = 4;           // per side: whether a texel needs more cells
 constexpr double kFlat = 1e-7;       // derivative by place, per texel, that counts as none
 
 struct Candidate {
@@ -76,14 +77,15 @@ class TexelModel {
 
     // Mean of the model over the texel; with derivatives in the candidates that shape it.
     double mean() {
-        const int divisions = cells_per_side();
+        int divisions = cells_per_side();
+        if (divisions > kProbes && ruled_by_one()) divisions = kProbes;
         const Vec2 cell = layout_.side * (1.0 / divisions);
         const double share = 1.0 / (divisions * divisions);
         const Vec2 corner = centre_ - layout_.side * 0.5;
         double sum = 0.0;
         for (int j = 0; j < divisions; ++j)
             for (int i = 0; i < divisions; ++i)
-                sum += cell_mean({corner.x + (i + 0.5) * cell.x, corner.y + (j + 0.5) * cell.y}, cell, share);
+                sum += cell_mean({corner.x + (i + 0.5) * cell.x, corner.y + (j + 0.5) * cell.y}, cell, share, derivatives_);
         return sum * share;
     }
 
@@ -118,6 +120,21 @@ class TexelModel {
             return std::abs(c.foot.bend) <= kStraight ? 1 : std::abs(c.foot.bend) < 0.05 ? 2 : 4;
         }
         return 1;
+    }
+
+    // Whether one feature, or the ground, rules wherever it is asked in the texel, though several might.
+    bool ruled_by_one() {
+        const Vec2 cell = layout_.side * (1.0 / kProbes);
+        const Vec2 corner = centre_ - layout_.side * 0.5;
+        int winner = -2;
+        for (int j = 0; j < kProbes; ++j) {
+            for (int i = 0; i < kProbes; ++i) {
+                cell_mean({corner.x + (i + 0.5) * cell.x, corner.y + (j + 0.5) * cell.y}, cell, 0.0, false);
+                if (winner != -2 && winner_ != winner) return false;
+                winner = winner_;
+            }
+        }
+        return true;
     }
 
     // Whether the acting elements are a chain that merely hands over from one to the next here.
@@ -166,7 +183,7 @@ class TexelModel {
         return true;
     }
 
-    double cell_mean(Vec2 p, Vec2 cell, double share) {
+    double cell_mean(Vec2 p, Vec2 cell, double share, bool derivatives) {
         double ground = ground_;
         double value = ground_;
         int winner = -1;
@@ -196,8 +213,9 @@ class TexelModel {
                 if (spoke_[i] && says_[i].cuts && says_[i].value < value)
                     value = says_[i].value, winner = static_cast<int>(i);
         }
-        if (derivatives_ && winner >= 0) differentiate(candidates_[winner], says_[winner], share);
-        if (derivatives_ && winner < 0) differentiate_ground(ground, share);
+        winner_ = winner;
+        if (derivatives && winner >= 0) differentiate(candidates_[winner], says_[winner], share);
+        if (derivatives && winner < 0) differentiate_ground(ground, share);
         return value;
     }
 
@@ -256,6 +274,7 @@ class TexelModel {
     Vec2 centre_;
     double ground_ = 0.0;
     bool near_step_ = false;
+    int winner_ = -1;  // of the last cell: a candidate, -1 for the ground
 };
 
 // Adds texels' equations up for one part of the map.
