@@ -156,6 +156,13 @@ std::vector<Element> fit_polyline(const Chain& chain, double tolerance) {
     return elements;
 }
 
+// Texels of the data texture: one a line, two a quadratic.
+std::size_t texels_of(const std::vector<Element>& elements) {
+    std::size_t sum = elements.size();
+    for (const Element& e : elements) sum += e.kind == ElementKind::quadratic;
+    return sum;
+}
+
 std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, double tolerance, int threads) {
     std::vector<FittedChain> fitted(chains.size());
     std::atomic<std::size_t> next{0};
@@ -166,7 +173,10 @@ std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, double tol
             fitted[c].chain = chains[c];
             const bool sound = fit->max_error < 3.0 * tolerance + 0.5 &&
                                stays_near(chains[c].points, fit->elements, 2.0 + 2.0 * chains[c].half_width);
-            fitted[c].elements = sound ? fit->elements : fit_polyline(chains[c], tolerance);
+            // Along a ragged rim a smooth chain needs more elements than corners do, and shows no more.
+            const std::vector<Element> polyline = fit_polyline(chains[c], tolerance);
+            const bool smooth = sound && 3 * texels_of(fit->elements) <= 4 * texels_of(polyline);
+            fitted[c].elements = smooth ? fit->elements : polyline;
             fitted[c].length = chain_length(fitted[c].elements);
         }
     };
@@ -215,7 +225,8 @@ std::vector<FittedChain> fit_within(Traced& traced, const Lattice& lattice, cons
                                     std::size_t budget, Vectorized& result, int threads) {
     const double energy = result.energy;
     double share = kLeastRegionShare;
-    const double loosest = std::max(1.2, 0.0012 * std::min(lattice.width, lattice.height));
+    const double asked = options.most_elements > 0 ? 1.7 : 1.0;  // a limit that was asked for goes before beauty
+    const double loosest = asked * std::max(1.2, 0.0012 * std::min(lattice.width, lattice.height));
     result.tolerance = options.tolerance > 0.0 ? options.tolerance : 0.3;
     // Polylines are fast and tell how many elements to expect; the curves, which need fewer, are fitted once at the end.
     const std::size_t most = budget * 5 / 4;
