@@ -9,6 +9,8 @@ import harness
 import inputs
 
 LIMIT_SECONDS = 10
+# A valid picture of 69 million texels: work, not a hang.
+LIMITS = {"jpg_edge_8500x8146_69Mpx.jpg": 300}
 ALLOWED = (0, 2, 3, 5)  # done, usage, input, not available here
 # Files that readers must take: valid, if rare. The others may be refused or read.
 MUST_READ = ("png_edge_valid_", "tif_edge_valid_no_rows", "tif_edge_valid_BigTIFF", "jpg_edge_valid_", "jpg_edge_arithmetic",
@@ -40,7 +42,8 @@ def validated(verdicts, burin, output, what):
 def try_file(verdicts, burin, path, arguments, what):
     with harness.Scratch() as folder:
         output = os.path.join(folder, "out.glb")
-        outcome = harness.run(burin, ["convert"] + arguments + ["-o", output], timeout=LIMIT_SECONDS)
+        limit = LIMITS.get(os.path.basename(path), LIMIT_SECONDS)
+        outcome = harness.run(burin, ["convert"] + arguments + ["-o", output], timeout=limit)
         judge(verdicts, outcome, what, output)
         check_no_rest(verdicts, folder, outcome, what)
         if outcome.status == 0:
