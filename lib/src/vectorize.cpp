@@ -336,6 +336,11 @@ Pattern make_pattern(const std::vector<FittedChain>& chains, const ProfileSet& s
 Status check_options(const HeightMap& map, const VectorizeOptions& options) {
     const auto refuse = [](const std::string& message) { return Error{ErrorCode::invalid_argument, message}; };
     if (map.image.width < 1 || map.image.height < 1) return refuse("map: has no texels; at least 1 x 1 would work");
+    if (map.image.texels.size() > kMaxVectorizedTexels)
+        return Error{ErrorCode::limit_exceeded,
+                     "map: " + std::to_string(map.image.width) + " x " + std::to_string(map.image.height) +
+                         " texels; at most " + std::to_string(kMaxVectorizedTexels) +
+                         " (8192 x 8192) are vectorized, so the map at half its size would work"};
     if (!(options.size.x > 0.0) || !(options.size.y > 0.0))
         return refuse("size: " + std::to_string(options.size.x) + " x " + std::to_string(options.size.y) +
                       " metres; both must be above 0");

@@ -9,8 +9,6 @@ import harness
 import inputs
 
 LIMIT_SECONDS = 10
-# A valid picture of 69 million texels: work, not a hang.
-LIMITS = {"jpg_edge_8500x8146_69Mpx.jpg": 300}
 ALLOWED = (0, 2, 3, 5)  # done, usage, input, not available here
 # Files that readers must take: valid, if rare. The others may be refused or read.
 MUST_READ = ("png_edge_valid_", "tif_edge_valid_no_rows", "tif_edge_valid_BigTIFF", "jpg_edge_valid_", "jpg_edge_arithmetic",
@@ -42,7 +40,7 @@ def validated(verdicts, burin, output, what):
 def try_file(verdicts, burin, path, arguments, what):
     with harness.Scratch() as folder:
         output = os.path.join(folder, "out.glb")
-        limit = LIMITS.get(os.path.basename(path), LIMIT_SECONDS)
+        limit = LIMIT_SECONDS
         outcome = harness.run(burin, ["convert"] + arguments + ["-o", output], timeout=limit)
         judge(verdicts, outcome, what, output)
         check_no_rest(verdicts, folder, outcome, what)

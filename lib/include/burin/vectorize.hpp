@@ -10,6 +10,7 @@
 // Source: [2010] 4.1 and 6 (vectorizing an artist's displacement map); DESIGN 3.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string_view>
 
@@ -21,6 +22,9 @@ namespace burin {
 
 // Called with a stage's name and the fraction done; returning false stops the work with `invalid_argument`.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
+
+// Largest map that is vectorized, in texels: 8192 x 8192. Larger ones are refused, since they would take minutes.
+inline constexpr std::size_t kMaxVectorizedTexels = std::size_t{8192} * 8192;
 
 enum class WrapChoice : std::uint8_t { automatic, repeat, clamp };  // automatic: repeat when opposite borders match
 
@@ -47,7 +51,8 @@ struct Vectorized {
 // Requires: a map of at least 1 x 1 texels with values in [0, 1].
 // Ensures: a map without features, or one that is not path-like, gives a pattern that `resolve_pattern` accepts, with no
 // path or few; the result is the same for any number of threads.
-// Fails with invalid_argument when an option is out of its range.
+// Fails with invalid_argument when an option is out of its range, and with limit_exceeded when the map is larger than
+// kMaxVectorizedTexels.
 // Cost: about linear in texels; 1 to 3 seconds for 1024 x 1024 on two cores.
 Result<Vectorized> vectorize_map(const HeightMap& map, const VectorizeOptions& options = {},
                                  const Progress& progress = {});
