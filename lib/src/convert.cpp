@@ -171,7 +171,7 @@ Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& optio
         if (!candidate) return candidate.error();
         const std::size_t bytes = texture_bytes(candidate->packed.textures);
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
-        if (bytes <= budget || attempt == 4 || elements <= 16) return candidate;
+        if (bytes <= budget || attempt == 3 || elements <= 16) return candidate;
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
         vectorize.most_elements = std::max(16, static_cast<int>(most * 0.85 * static_cast<double>(budget) / bytes));
     }

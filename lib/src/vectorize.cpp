@@ -165,10 +165,16 @@ std::size_t texels_of(const std::vector<Element>& elements) {
 
 std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, double tolerance, int threads) {
     std::vector<FittedChain> fitted(chains.size());
+    // Curve fitting takes some 20 microseconds a point on ragged rims; where there are very many, corners have to do.
+    constexpr std::size_t kMostCurvePoints = 120000;
+    std::size_t points = 0;
+    for (const Chain& chain : chains) points += chain.points.size();
+    const bool curves = points <= kMostCurvePoints;
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
         for (std::size_t c = next++; c < chains.size(); c = next++) {
-            const Result<FitResult> fit = fit_curve(chains[c].points, fit_options(chains[c], tolerance));
+            const Result<FitResult> fit = curves ? fit_curve(chains[c].points, fit_options(chains[c], tolerance))
+                                                 : Result<FitResult>(FitResult{{}, {}, {}, 1e9, 1e9});
             if (!fit) continue;  // all points coincide: nothing to draw
             fitted[c].chain = chains[c];
             const bool sound = fit->max_error < 3.0 * tolerance + 0.5 &&
