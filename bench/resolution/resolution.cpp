@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <burin/fit.hpp>
 #include <burin/rasterize.hpp>
 #include <burin/refine.hpp>
 #include <burin/resolve.hpp>
@@ -115,9 +116,21 @@ std::vector<Segment> lines_of(const Image& map, int zoom) {
     });
 }
 
-// The map enlarged, with the true lines green and ours red.
+// Chords of the paths, in map texels.
+std::vector<Segment> chords_of(const Pattern& pattern, int texels) {
+    constexpr int kChords = 8;
+    std::vector<Segment> chords;
+    for (const Path& path : pattern.paths)
+        for (const Element& e : path.elements)
+            for (int k = 0; k < kChords; ++k)
+                chords.push_back({point_at(e, double(k) / kChords) * (texels / pattern.size.x),
+                                  point_at(e, (k + 1.0) / kChords) * (texels / pattern.size.x)});
+    return chords;
+}
+
+// The map enlarged, with the true lines green, ours red, and our paths blue.
 void write_picture(const std::string& request, const Image& map, const std::vector<Segment>& truth,
-                   const std::vector<Segment>& ours) {
+                   const std::vector<Segment>& ours, const std::vector<Segment>& paths) {
     constexpr int kEnlarge = 16;
     const std::size_t c3 = request.rfind(':'), c2 = request.rfind(':', c3 - 1), c1 = request.rfind(':', c2 - 1);
     const int x0 = std::atoi(request.substr(c1 + 1).c_str()), y0 = std::atoi(request.substr(c2 + 1).c_str());
@@ -130,8 +143,9 @@ void write_picture(const std::string& request, const Image& map, const std::vect
                     60.0f + 180.0f * map.at(std::min(x0 + x / kEnlarge, map.width - 1), std::min(y0 + y / kEnlarge, map.height - 1)));
     const auto draw = [&](const std::vector<Segment>& lines, int r, int g, int b) {
         for (const Segment& s : lines) {
-            for (int k = 0; k <= 16; ++k) {
-                const Vec2 p = lerp(s.a, s.b, k / 16.0);
+            const int steps = 1 + static_cast<int>(length(s.b - s.a) * kEnlarge);
+            for (int k = 0; k <= steps; ++k) {
+                const Vec2 p = lerp(s.a, s.b, double(k) / steps);
                 const int x = static_cast<int>((p.x - x0) * kEnlarge), y = static_cast<int>((p.y - y0) * kEnlarge);
                 if (x < 0 || y < 0 || x >= pixels || y >= pixels) continue;
                 unsigned char* t = &rgb[(static_cast<std::size_t>(y) * pixels + x) * 3];
@@ -140,6 +154,7 @@ void write_picture(const std::string& request, const Image& map, const std::vect
         }
     };
     draw(truth, 0, 160, 0);
+    draw(paths, 0, 60, 255);
     draw(ours, 220, 0, 0);
     std::ofstream file(request.substr(0, c1), std::ios::binary);
     file << "P6\n" << pixels << " " << pixels << "\n255\n";
@@ -155,8 +170,8 @@ Row measure(const Case& c, const Options& options, unsigned seed) {
     const double begin = now();
     Pattern ours;
     const std::vector<Segment> truth = lines_of(c.pattern, options.zoom, c.texels);
-    if (options.start == "vectorized") {
-        ours = vectorized(map, c.pattern);
+    if (options.start == "vectorized" || options.start == "traced") {
+        ours = vectorized(map, c.pattern, options.start == "vectorized");
     } else {
         ours = disturbed(c.pattern, c.texels, 0.3, 0.05, seed);
         row.start = distance_between(truth, lines_of(ours, options.zoom, c.texels)).rms;
@@ -169,7 +184,7 @@ Row measure(const Case& c, const Options& options, unsigned seed) {
         }
         row.rms = report->rms_after;
     }
-    if (options.start == "vectorized") row.seconds = now() - begin;
+    if (options.start != "disturbed") row.seconds = now() - begin;
     const std::vector<Segment> our_lines = lines_of(ours, options.zoom, c.texels);
     const LineDistance distance = distance_between(truth, our_lines);
     const LineDistance bilinear = distance_between(truth, lines_of(map, options.zoom));
@@ -177,7 +192,7 @@ Row measure(const Case& c, const Options& options, unsigned seed) {
     row.worst = distance.worst;
     row.spots = distance.spots;
     row.bilinear = bilinear.rms, row.bilinear999 = bilinear.p999, row.bilinear_lost = bilinear.lost;
-    if (!options.picture.empty()) write_picture(options.picture, map, truth, our_lines);
+    if (!options.picture.empty()) write_picture(options.picture, map, truth, our_lines, chords_of(ours, c.texels));
     return row;
 }
 

@@ -8,7 +8,7 @@
 
 namespace burin::bench {
 
-Pattern vectorized(const Image& map, const Pattern& like) {
+Pattern vectorized(const Image& map, const Pattern& like, bool refined) {
     HeightMap input;
     input.image = map;
     VectorizeOptions options;
@@ -21,6 +21,7 @@ Pattern vectorized(const Image& map, const Pattern& like) {
         std::exit(3);
     }
     Pattern pattern = std::move(traced->pattern);
+    if (!refined) return pattern;
     const Result<RefineReport> report = refine_pattern(pattern, map);
     if (!report) {
         std::fprintf(stderr, "resolution: %s\n", report.error().message.c_str());

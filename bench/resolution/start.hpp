@@ -7,6 +7,7 @@
 namespace burin::bench {
 
 // The map traced from nothing; `like` tells size, depth and wrap. Exits with a message when it cannot be.
-Pattern vectorized(const Image& map, const Pattern& like);
+// `refined`: with the least-squares fit after it.
+Pattern vectorized(const Image& map, const Pattern& like, bool refined);
 
 }  // namespace burin::bench

@@ -67,12 +67,22 @@ Traced trace_map(const Image& source, const Lattice& lattice, double noise, doub
     const int margin = lattice.wrap ? 0 : static_cast<int>(radius) + 8;
     const Lattice wide{lattice.width + 2 * margin, lattice.height + 2 * margin, lattice.wrap};
     Image map = mirror_margin(source, margin);
-    const bool grooves_first = line_energy(map, wide, ChainKind::groove, radius, noise) >=
-                               line_energy(map, wide, ChainKind::ridge, radius, noise);
-    for (const bool first : {true, false}) {
-        const ChainKind kind = first == grooves_first ? ChainKind::groove : ChainKind::ridge;
-        for (Chain& chain : trace_lines(map, wide, kind, radius, noise, energy)) traced.lines.push_back(std::move(chain));
+    const Image whole = map;
+    std::vector<Chain> grooves, ridges;
+    // Thin lines first: between them, to a wide look, the ground is a ridge.
+    for (const double r : {std::clamp(0.4 * radius, 4.0, 8.0), radius}) {
+        const bool grooves_first = line_energy(map, wide, ChainKind::groove, r, noise) >=
+                                   line_energy(map, wide, ChainKind::ridge, r, noise);
+        for (const bool first : {true, false}) {
+            const ChainKind kind = first == grooves_first ? ChainKind::groove : ChainKind::ridge;
+            std::vector<Chain>& lines = kind == ChainKind::groove ? grooves : ridges;
+            for (Chain& chain : trace_lines(map, wide, kind, {r, r < radius}, noise, energy)) lines.push_back(std::move(chain));
+        }
     }
+    tie_lines(grooves, whole, wide, ChainKind::groove, radius);
+    tie_lines(ridges, whole, wide, ChainKind::ridge, radius);
+    traced.lines = std::move(grooves);
+    for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
     traced.flattened = crop_margin(map, margin, lattice);
     traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy);

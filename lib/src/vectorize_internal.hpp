@@ -81,14 +81,28 @@ std::vector<float> distance_inside(const std::vector<std::uint8_t>& mask, const 
 // Thins a mask to lines one texel wide that keep its topology.
 void thin_mask(std::vector<std::uint8_t>& mask, const Lattice& lattice);
 
-// Grooves or ridges narrower than twice `radius`: centre lines with junctions resolved into long chains. What the
-// chains stand for is erased from the map, so that plateaus and lines of the other sign can be looked for in the rest.
-// A chain that explains less than a little of `energy`, the map's whole sum of squares, is left out.
-std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
+// Lines narrower than twice `radius` texels are looked for; `alone`: only those on level ground far to both sides.
+struct LineScale {
+    double radius = 0.0;
+    bool alone = false;
+};
+
+// Grooves or ridges of a scale: centre lines with junctions resolved into long chains. What the chains stand for is
+// erased from the map, so that plateaus and lines of the other sign can be looked for in the rest. A chain that explains
+// less than a little of `energy`, the map's whole sum of squares, is left out.
+std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kind, const LineScale& scale, double noise,
                                double energy);
 
-// Ends that stop just before, in, or just behind another chain are T ends on it.
-void extend_to_lines(std::vector<Chain>& chains, const Lattice& lattice);
+// Joins and ties the ends of all lines of one kind, of the map as it was before any was erased: the two below.
+void tie_lines(std::vector<Chain>& chains, const Image& map, const Lattice& lattice, ChainKind kind, double radius);
+
+// Ends of two chains that continue each other, with the response (see trace_lines) shown in between, make one chain: a
+// line that crosses another at a small angle comes in two pieces.
+void join_facing_ends(std::vector<Chain>& chains, const Image& response, const Lattice& lattice);
+
+// Ends that stop just before, in, or just behind another chain are T ends on it, where the response (see trace_lines)
+// shows no gap between the two.
+void extend_to_lines(std::vector<Chain>& chains, const Image& response, const Lattice& lattice);
 
 // Sum of squared responses: how much of the map is grooves (or ridges) narrower than twice `radius`.
 double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise);

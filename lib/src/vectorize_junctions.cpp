@@ -295,20 +295,66 @@ struct Builder {
     }
 };
 
+// The way a chain takes near its end: a parabola over its tangent there, fitted to the points that the cap does not
+// disturb.
+struct TailCurve {
+    Vec2 origin, along;
+    double bend = 0.0;  // offset to the left per squared length
+
+    Vec2 at(double s) const { return origin + along * s + normal_of(along) * (bend * s * s); }
+};
+
+// `near`: points from the end backwards.
+TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
+    const Vec2 origin = near.front();
+    const Vec2 rough = unit(near.front() - near[std::min<std::size_t>(near.size() - 1, 6)]);
+    const Vec2 left = normal_of(rough);
+    // Least squares for a + b s + c s^2.
+    double m[3][4] = {};
+    for (const Vec2 p : near) {
+        const double s = dot(p - origin, rough), v = dot(p - origin, left), row[3] = {1.0, s, s * s};
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) m[i][j] += row[i] * row[j];
+            m[i][3] += row[i] * v;
+        }
+    }
+    const double long_enough = 2.0 * half_width + 6.0;
+    if (near.size() < 8 || length(near.front() - near.back()) < long_enough) m[2][2] += 1e12;  // straight
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) {
+            if (k == i || std::fabs(m[i][i]) < 1e-12) continue;
+            const double f = m[k][i] / m[i][i];
+            for (int j = i; j < 4; ++j) m[k][j] -= f * m[i][j];
+        }
+    const auto solved = [&](int i) { return std::fabs(m[i][i]) < 1e-12 ? 0.0 : m[i][3] / m[i][i]; };
+    const double a = solved(0), b = solved(1), c = solved(2);
+    const double tightest = 0.5 / std::max(3.0, half_width);
+    return {origin + left * a, unit(rough + left * b), std::clamp(c, -tightest, tightest)};
+}
+
 // The visible end of a line lies where its response falls to half; a hip cap puts the path's end half a width before.
+// The skeleton of a cap leads into one of its corners: the last points are put where the chain comes to from behind.
 void settle_free_end(std::vector<Vec2>& points, const Chain& chain, const Image& response, const Lattice& lattice) {
     if (points.size() < 2) return;
-    const std::size_t n = points.size();
-    const std::size_t back = std::min<std::size_t>(n - 1, std::max<std::size_t>(4, static_cast<std::size_t>(2 * chain.half_width)));
-    const Vec2 direction = unit(points[n - 1] - points[n - 1 - back]);
-    const double half = 0.5 * chain.contrast;
-    double t = -chain.half_width;
-    const double furthest = 4.0 * chain.half_width + 8.0;
-    for (; t < furthest; t += 0.25)
-        if (t >= 0.0 && sample(response, lattice, points[n - 1] + direction * t) < half) break;
-    const Vec2 end = points[n - 1] + direction * (t - 0.125 - chain.half_width);
-    while (points.size() > 2 && dot(points.back() - end, direction) > -0.25) points.pop_back();
-    if (dot(end - points.back(), direction) > 0.0) points.push_back(end);
+    const double disturbed = chain.half_width + 1.0, span = std::max(8.0, 4.0 * chain.half_width);
+    std::size_t last = points.size() - 1;
+    while (last > 3 && length(points[last] - points.back()) < disturbed && length(points[last] - points[last - 1]) < 3.0) --last;
+    std::vector<Vec2> near;
+    for (std::size_t k = last + 1; k-- > 0;) {
+        if (near.size() >= 2 && length(points[k] - near.back()) > 3.0) break;
+        if (near.size() >= 4 && length(points[k] - near.front()) > span) break;
+        near.push_back(points[k]);
+    }
+    if (near.size() < 2) return;
+    const TailCurve tail = fit_tail(near, chain.half_width);
+    const double half = 0.5 * chain.contrast, furthest = length(points.back() - points[last]) + 4.0 * chain.half_width + 8.0;
+    double t = 0.0;
+    while (t < furthest && sample(response, lattice, tail.at(t)) >= half) t += 0.25;
+    const double end = t - 0.125 - chain.half_width;
+    points.resize(last + 1);
+    while (points.size() > 2 && dot(points.back() - tail.at(end), tail.along) > -0.25) points.pop_back();
+    for (double s = 1.0; s < end - 0.5; s += 1.0) points.push_back(tail.at(s));
+    if (end > -disturbed) points.push_back(tail.at(end));
 }
 
 void settle_ends(Chain& chain, const Image& response, const Lattice& lattice) {

@@ -81,10 +81,44 @@ void drop_specks(std::vector<std::uint8_t>& mask, const Image& response, const L
     }
 }
 
+// Calls visit(index) for the texels within `reach` of the chain, some more than once.
+template <typename Visit>
+void for_each_texel_near(const Chain& chain, const Lattice& lattice, int reach, const Visit& visit) {
+    for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
+        const Vec2 a = chain.points[i], b = chain.points[i + 1];
+        const int pieces = std::max(1, static_cast<int>(std::ceil(length(b - a))));
+        for (int piece = 0; piece <= pieces; ++piece) {
+            const Vec2 p = lerp(a, b, static_cast<double>(piece) / pieces);
+            const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
+            for (int dy = -reach; dy <= reach; ++dy)
+                for (int dx = -reach; dx <= reach; ++dx) {
+                    const int j = dx * dx + dy * dy <= reach * reach ? lattice.index(x + dx, y + dy) : -1;
+                    if (j >= 0) visit(j);
+                }
+        }
+    }
+}
+
 double chain_length(const Chain& chain) {
     double sum = 0.0;
     for (std::size_t i = 1; i < chain.points.size(); ++i) sum += length(chain.points[i] - chain.points[i - 1]);
     return sum;
+}
+
+constexpr double kBridge = 3.0;  // texels between points beyond which there were others that were dropped
+constexpr std::int32_t kNobody = -1, kSeveral = -2;
+
+// Which chain each texel is a part of: its index, nobody's, or several chains'.
+std::vector<std::int32_t> claim_texels(const std::vector<Chain>& chains, const Lattice& lattice) {
+    std::vector<std::int32_t> owner(static_cast<std::size_t>(lattice.size()), kNobody);
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        const int reach = static_cast<int>(std::ceil(chains[c].half_width + 1.0));
+        for_each_texel_near(chains[c], lattice, reach, [&](int texel) {
+            const bool free = owner[texel] == kNobody || owner[texel] == static_cast<std::int32_t>(c);
+            owner[texel] = free ? static_cast<std::int32_t>(c) : kSeveral;
+        });
+    }
+    return owner;
 }
 
 // The map across a chain, relative to the ground beside each place: medians over the chain.
@@ -95,33 +129,58 @@ struct CrossSection {
     double wobble = 0.0;     // what it leaves, in texels by which the rims would have to be off to leave as much
 };
 
+// What a chain is measured in.
+struct Surroundings {
+    const Image& map;
+    const Lattice& lattice;
+    const std::vector<std::int32_t>& owner;  // see claim_texels
+    double noise = 0.0;
+};
+
 // One row per place along the chain, offsets -n..n steps of half a texel; the mean of both ends is subtracted, so that
 // a line that runs over soft or stepped ground still has one section.
-std::vector<std::vector<float>> sample_sections(const Chain& chain, const Image& map, const Lattice& lattice, int n,
-                                                std::vector<float>& tilts) {
-    std::vector<std::vector<float>> columns(static_cast<std::size_t>(2 * n + 1));
-    std::vector<float> row(columns.size());
+struct Rows {
+    std::vector<std::vector<float>> columns;  // per offset
+    std::vector<float> tilts;
+};
+
+// `alone`: only places where no other chain comes near.
+Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& around, int n, bool alone) {
+    Rows rows;
+    rows.columns.resize(static_cast<std::size_t>(2 * n + 1));
+    std::vector<float> row(rows.columns.size());
     for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
         const Vec2 a = chain.points[i], b = chain.points[i + 1];
         const double l = length(b - a);
-        if (l == 0.0) continue;
+        // Where points are missing the chain was bridged over a crossing.
+        if (l == 0.0 || (alone && l > kBridge)) continue;
         const Vec2 normal = normal_of(unit(b - a));
         const int pieces = std::max(1, static_cast<int>(l / 2.0));
         for (int piece = 0; piece < pieces; ++piece) {
             const Vec2 p = lerp(a, b, (piece + 0.5) / pieces);
-            for (int k = -n; k <= n; ++k) row[k + n] = sample(map, lattice, p + normal * (k * 0.5));
+            bool disturbed = false;
+            for (int k = -n; k <= n; ++k) {
+                const Vec2 q = p + normal * (k * 0.5);
+                const auto owner = around.owner[around.lattice.nearest(int(std::floor(q.x)), int(std::floor(q.y)))];
+                disturbed |= owner != kNobody && owner != self;
+                row[k + n] = sample(around.map, around.lattice, q);
+            }
+            if (alone && disturbed) continue;
             const float ground = 0.5f * (row.front() + row.back());
-            tilts.push_back(row.back() - row.front());
-            for (std::size_t k = 0; k < row.size(); ++k) columns[k].push_back(row[k] - ground);
+            rows.tilts.push_back(row.back() - row.front());
+            for (std::size_t k = 0; k < row.size(); ++k) rows.columns[k].push_back(row[k] - ground);
         }
     }
-    return columns;
+    return rows;
 }
 
-CrossSection measure_cross_section(const Chain& chain, const Image& map, const Lattice& lattice, double reach) {
+CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const Surroundings& around, double reach) {
+    constexpr std::size_t kEnoughAlone = 4;
     const int n = static_cast<int>(std::ceil(reach / 0.5));
-    std::vector<float> tilts;
-    std::vector<std::vector<float>> columns = sample_sections(chain, map, lattice, n, tilts);
+    Rows rows = sample_sections(chain, self, around, n, true);
+    if (rows.tilts.size() < kEnoughAlone) rows = sample_sections(chain, self, around, n, false);
+    std::vector<float>& tilts = rows.tilts;
+    std::vector<std::vector<float>>& columns = rows.columns;
     CrossSection section;
     if (tilts.size() < 2) return section;
     std::nth_element(tilts.begin(), tilts.begin() + static_cast<std::ptrdiff_t>(tilts.size() / 2), tilts.end());
@@ -150,7 +209,8 @@ constexpr double kBroad = 6.0;  // half-width in texels
 
 // A line has one section all along it, and the same ground on both sides. What fails this is the rim of a plateau or a
 // blob, which the step contours describe better; and so do they a wide line whose rims are ragged.
-bool is_line(const Chain& chain, const Image& map, const Lattice& lattice, double noise) {
+bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) {
+    const double noise = around.noise;
     const double extent = chain_length(chain) + 2.0 * chain.half_width;
     if (extent < 3.0 * chain.half_width + 3.0 || chain.contrast < 3.0 * noise) return false;
     // A short broad bar, or a broad piece of a net of joints, is an area with a rim.
@@ -159,7 +219,7 @@ bool is_line(const Chain& chain, const Image& map, const Lattice& lattice, doubl
     const double near = std::max(3.0, 1.6 * chain.half_width + 1.5);
     for (const double reach : {near, 4.0 * near}) {
         if (reach > near && chain.half_width > 1.5) return false;
-        const CrossSection section = measure_cross_section(chain, map, lattice, reach);
+        const CrossSection section = measure_cross_section(chain, self, around, reach);
         // A closing that does not span the line fills only a part of it: it is wider than it looks.
         if (chain.half_width > 2.0 && chain.contrast < 0.93 * section.depth) return false;
         const double grain = 0.5 * (4.0 * reach + 1.0) * (noise / section.depth) * (noise / section.depth);
@@ -171,10 +231,6 @@ bool is_line(const Chain& chain, const Image& map, const Lattice& lattice, doubl
     return false;
 }
 
-}  // namespace
-
-namespace {
-
 double least_response(double noise) { return std::max(4.0 * noise, 0.012); }
 
 int square_radius(double radius) { return std::max(2, static_cast<int>(std::lround(radius))); }
@@ -184,7 +240,7 @@ bool is_supported(const Chain& chain) {
     double bridged = 0.0;
     for (std::size_t i = 1; i < chain.points.size(); ++i) {
         const double gap = length(chain.points[i] - chain.points[i - 1]);
-        if (gap > 3.0) bridged += gap - std::min(gap, 6.0 * chain.half_width + 4.0) + 3.0;
+        if (gap > kBridge) bridged += gap - std::min(gap, 6.0 * chain.half_width + 4.0) + kBridge;
     }
     return chain.points.size() >= 4 && bridged < 0.4 * chain_length(chain);
 }
@@ -216,17 +272,34 @@ std::size_t find_change(const Chain& chain, const Image& map, const Lattice& lat
     return at;
 }
 
+// A line with level ground far to both sides. A small square fills only the bottom of a wide line or the corner of an
+// area, and the ground between two lines looks like a line of the other sign: those are none.
+bool stands_alone(const Chain& chain, std::int32_t self, const Surroundings& around, double radius) {
+    if (chain.half_width > 0.6 * radius || chain_length(chain) < 6.0 * chain.half_width + 8.0) return false;
+    const CrossSection section = measure_cross_section(chain, self, around, 3.0 * chain.half_width + 4.0);
+    return section.depth > 0.9 * chain.contrast && std::fabs(section.tilt) < 0.2 * section.depth &&
+           section.explained > 0.8;
+}
+
 // The chains that are lines; of one that is not, the parts before and behind its greatest change that are.
 std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map, const Lattice& lattice, double noise,
-                              double least_energy) {
+                              double least_energy, const LineScale& scale) {
+    struct Part {
+        Chain chain;
+        std::int32_t of = 0;  // index of the chain it is a part of
+        int splits = 0;
+    };
+    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
+    const Surroundings around{map, lattice, owner, noise};
     std::vector<Chain> kept;
-    std::vector<std::pair<Chain, int>> stack;
-    for (auto chain = chains.rbegin(); chain != chains.rend(); ++chain) stack.push_back({*chain, 0});
+    std::vector<Part> stack;
+    for (std::size_t c = chains.size(); c-- > 0;) stack.push_back({chains[c], static_cast<std::int32_t>(c), 0});
     while (!stack.empty()) {
-        auto [chain, splits] = std::move(stack.back());
+        auto [chain, of, splits] = std::move(stack.back());
         stack.pop_back();
         if (chain_energy(chain) < least_energy) continue;
-        if (is_supported(chain) && is_line(chain, map, lattice, noise)) {
+        if (is_supported(chain) && is_line(chain, of, around) && 
+            (!scale.alone || stands_alone(chain, of, around, scale.radius))) {
             kept.push_back(std::move(chain));
             continue;
         }
@@ -238,8 +311,8 @@ std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map
         second.start_tie = EndTie::free;
         chain.points.resize(at);
         chain.end_tie = EndTie::free;
-        stack.push_back({std::move(second), splits + 1});
-        stack.push_back({std::move(chain), splits + 1});
+        stack.push_back({std::move(second), of, splits + 1});
+        stack.push_back({std::move(chain), of, splits + 1});
     }
     return kept;
 }
@@ -251,21 +324,11 @@ void erase_lines(Image& map, const Image& response, const Lattice& lattice, cons
     const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
     for (const Chain& chain : chains) {
         const int reach = static_cast<int>(std::ceil(1.5 * chain.half_width + 2.0));
-        for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
-            const Vec2 a = chain.points[i], b = chain.points[i + 1];
-            const int pieces = std::max(1, static_cast<int>(std::ceil(length(b - a))));
-            for (int piece = 0; piece <= pieces; ++piece) {
-                const Vec2 p = lerp(a, b, static_cast<double>(piece) / pieces);
-                const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
-                for (int dy = -reach; dy <= reach; ++dy)
-                    for (int dx = -reach; dx <= reach; ++dx) {
-                        const int j = lattice.index(x + dx, y + dy);
-                        if (j < 0 || erased[j] || dx * dx + dy * dy > reach * reach) continue;
-                        erased[j] = 1;
-                        map.texels[j] += sign * response.texels[j];
-                    }
-            }
-        }
+        for_each_texel_near(chain, lattice, reach, [&](int texel) {
+            if (erased[texel]) return;
+            erased[texel] = 1;
+            map.texels[texel] += sign * response.texels[texel];
+        });
     }
 }
 
@@ -280,9 +343,9 @@ double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, dou
     return sum;
 }
 
-std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
-                               double energy) {
-    const int r = square_radius(radius);
+std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kind, const LineScale& scale,
+                               double noise, double energy) {
+    const int r = square_radius(scale.radius);
     const Image response = hat_response(map, lattice, kind, r);
     const double least = least_response(noise);
     // A wide window would hide a shallow line where it comes near a deep one.
@@ -293,10 +356,15 @@ std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kin
     Skeleton skeleton = trace_skeleton(mask, thickness, lattice);
     measure_strands(skeleton, response, lattice);
     std::vector<Chain> chains = join_strands(skeleton, response, lattice, kind);
-    chains = keep_lines(chains, map, lattice, noise, 2e-5 * energy);
+    chains = keep_lines(chains, map, lattice, noise, 2e-5 * energy, scale);
     erase_lines(map, response, lattice, chains, kind);
-    extend_to_lines(chains, lattice);
     return chains;
+}
+
+void tie_lines(std::vector<Chain>& chains, const Image& map, const Lattice& lattice, ChainKind kind, double radius) {
+    const Image response = hat_response(map, lattice, kind, square_radius(radius));
+    join_facing_ends(chains, response, lattice);
+    extend_to_lines(chains, response, lattice);
 }
 
 }  // namespace burin::vectorizing

@@ -11,56 +11,245 @@
 namespace burin::vectorizing {
 namespace {
 
-// Looks from behind the end of `points` to some way ahead of it for the first other chain.
-bool find_ahead(const std::vector<Vec2>& points, double half_width, std::uint32_t self, const SegmentBuckets& buckets,
-                const std::vector<Chain>& chains, Vec2& found) {
-    const std::size_t n = points.size();
-    const double behind = 3.0 * half_width + 4.0, ahead = 2.0 * half_width + 6.0;
-    std::size_t base = n - 1;
-    while (base > 0 && length(points[base] - points[n - 1]) < behind) --base;
-    const Vec2 direction = unit(points[n - 1] - points[base]);
-    const Vec2 from = points[base], to = points[n - 1] + direction * (ahead + 12.0);
-    const double past_end = length(points[n - 1] - from);
-    double best = 1e300;
-    buckets.near(from, to, 1.0, [&](const Segment& s, Vec2 shift) {
-        if (s.chain == self) return;
-        double t = 0.0, u = 0.0;
-        if (!meet(from, to, s.a + shift, s.b + shift, t, u)) return;
-        const double distance = t * length(to - from);
-        // Only as far as the other line is wide: two separate lines may well end facing each other.
-        if (distance - past_end > ahead + 1.5 * chains[s.chain].half_width - 2.0) return;
-        if (distance < best) best = distance, found = from + (to - from) * t;
-    });
-    return best < 1e300;
+constexpr double kBridge = 3.0;       // texels between points beyond which there were others that were dropped
+constexpr double kHiddenStub = 2.0;  // texels a line may reach out of the one it ends on
+
+void reverse_points(Chain& chain) {
+    std::reverse(chain.points.begin(), chain.points.end());
+    std::swap(chain.start_tie, chain.end_tie);
 }
 
-void extend_end(Chain& chain, std::uint32_t self, const SegmentBuckets& buckets, const std::vector<Chain>& chains) {
-    Vec2 target;
-    if (chain.points.size() < 2 || !find_ahead(chain.points, chain.half_width, self, buckets, chains, target)) return;
-    const Vec2 direction = unit(chain.points.back() - chain.points[chain.points.size() - 2]);
-    while (chain.points.size() > 2 && dot(chain.points.back() - target, direction) > -0.5) chain.points.pop_back();
-    chain.points.push_back(target);
-    chain.end_tie = EndTie::chain;
+// The straight way on from an end of a chain, fitted to its last points.
+struct EndLine {
+    std::uint32_t chain = 0;
+    bool at_start = false;
+    Vec2 foot, outward;
+};
+
+EndLine fit_end_line(const Chain& chain, std::uint32_t index, bool at_start) {
+    std::vector<Vec2> near;
+    const double span = std::max(8.0, 4.0 * chain.half_width);
+    const std::size_t n = chain.points.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec2 p = chain.points[at_start ? k : n - 1 - k];
+        // The point of a tie lies apart from those that were measured.
+        if (near.size() == 1 && length(p - near.front()) > kBridge) near.clear();
+        if (near.size() >= 2 && length(p - near.back()) > kBridge) break;
+        if (near.size() >= 3 && length(p - near.front()) > span) break;
+        near.push_back(p);
+    }
+    Vec2 mean;
+    for (const Vec2 p : near) mean = mean + p * (1.0 / static_cast<double>(near.size()));
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (const Vec2 p : near) {
+        const Vec2 d = p - mean;
+        xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
+    }
+    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    Vec2 outward{std::cos(angle), std::sin(angle)};
+    if (dot(outward, near.front() - near.back()) < 0.0) outward = -outward;
+    return {index, at_start, mean + outward * dot(near.front() - mean, outward), outward};
 }
+
+class EndJoiner {
+  public:
+    EndJoiner(std::vector<Chain>& chains, const Image& response, const Lattice& lattice)
+        : chains_(chains), response_(response), lattice_(lattice) {}
+
+    void run() {
+        std::vector<EndLine> ends;
+        for (std::uint32_t c = 0; c < chains_.size(); ++c) {
+            if (chains_[c].closed || chains_[c].points.size() < 6) continue;
+            for (const bool at_start : {true, false}) ends.push_back(fit_end_line(chains_[c], c, at_start));
+        }
+        struct Pair {
+            double cost;
+            std::size_t a, b;
+        };
+        std::vector<Pair> pairs;
+        for (std::size_t a = 0; a < ends.size(); ++a)
+            for (std::size_t b = a + 1; b < ends.size(); ++b) {
+                const double cost = cost_of(ends[a], ends[b]);
+                if (cost < 1.0) pairs.push_back({cost, a, b});
+            }
+        std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.cost < q.cost; });
+        std::vector<std::uint8_t> taken(ends.size(), 0);
+        for (std::uint32_t c = 0; c < chains_.size(); ++c) part_of_.push_back(c), ends_.push_back({2 * c, 2 * c + 1});
+        for (const Pair& pair : pairs) {
+            if (taken[pair.a] || taken[pair.b] || !join(ends[pair.a], ends[pair.b])) continue;
+            taken[pair.a] = taken[pair.b] = 1;
+        }
+        chains_.erase(std::remove_if(chains_.begin(), chains_.end(), [](const Chain& c) { return c.points.empty(); }),
+                      chains_.end());
+    }
+
+  private:
+    Vec2 shift_to(Vec2 p, Vec2 target) const {
+        if (!lattice_.wrap) return {0.0, 0.0};
+        return {lattice_.width * std::round((target.x - p.x) / lattice_.width),
+                lattice_.height * std::round((target.y - p.y) / lattice_.height)};
+    }
+
+    // Below 1 when the two continue each other.
+    double cost_of(const EndLine& a, const EndLine& b) const {
+        if (a.chain == b.chain) return 2.0;
+        const Chain& p = chains_[a.chain];
+        const Chain& q = chains_[b.chain];
+        const double wide = std::max(p.half_width, q.half_width), narrow = std::min(p.half_width, q.half_width);
+        const double high = std::max(p.contrast, q.contrast), low = std::min(p.contrast, q.contrast);
+        const Vec2 between = b.foot + shift_to(b.foot, a.foot) - a.foot;
+        const double gap = length(between);
+        if (gap > 8.0 * wide + 8.0 || wide + 0.5 > 1.3 * (narrow + 0.5) || high > 1.4 * low) return 2.0;
+        const double turn = std::acos(std::clamp(-dot(a.outward, b.outward), -1.0, 1.0));
+        const double offset = std::max(std::fabs(cross(a.outward, between)), std::fabs(cross(b.outward, between)));
+        const double allowed = 0.25 * wide + 0.5 + 0.04 * gap;
+        if (turn > 0.3 || offset > allowed || dot(between, a.outward) < 0.0 || !is_shown(a, between)) return 2.0;
+        return 0.5 * turn / 0.3 + 0.5 * offset / allowed;
+    }
+
+    bool is_shown(const EndLine& a, Vec2 between) const {
+        const int steps = static_cast<int>(std::ceil(2.0 * length(between)));
+        for (int k = 0; k <= steps; ++k)
+            if (sample(response_, lattice_, a.foot + between * (double(k) / std::max(1, steps))) < 0.5 * chains_[a.chain].contrast)
+                return false;
+        return true;
+    }
+
+    bool join(const EndLine& a, const EndLine& b) {
+        const std::uint32_t first = part_of_[a.chain], second = part_of_[b.chain];
+        if (first == second) return false;
+        Chain& p = chains_[first];
+        Chain& q = chains_[second];
+        if (ends_[first].back != id_of(a)) turn(first);
+        if (ends_[second].back != id_of(b)) turn(second);
+        drop_beyond(p.points, a);
+        drop_beyond(q.points, b);
+        turn(second);
+        const Vec2 shift = shift_to(q.points.front(), p.points.back());
+        const double np = static_cast<double>(p.points.size()), nq = static_cast<double>(q.points.size());
+        p.half_width = (np * p.half_width + nq * q.half_width) / (np + nq);
+        p.contrast = (np * p.contrast + nq * q.contrast) / (np + nq);
+        for (const Vec2 point : q.points) p.points.push_back(point + shift);
+        p.end_tie = q.end_tie;
+        q.points.clear();
+        ends_[first].back = ends_[second].back;
+        for (std::uint32_t& part : part_of_)
+            if (part == second) part = first;
+        return true;
+    }
+
+    static std::uint32_t id_of(const EndLine& end) { return 2 * end.chain + (end.at_start ? 0 : 1); }
+
+    void turn(std::uint32_t part) {
+        reverse_points(chains_[part]);
+        std::swap(ends_[part].front, ends_[part].back);
+    }
+
+    // The point of a tie, and what was guessed of an end.
+    void drop_beyond(std::vector<Vec2>& points, const EndLine& end) const {
+        while (points.size() > 3 &&
+               dot(points.back() + shift_to(points.back(), end.foot) - end.foot, end.outward) > 0.25)
+            points.pop_back();
+    }
+
+    std::vector<Chain>& chains_;
+    const Image& response_;
+    const Lattice& lattice_;
+    std::vector<std::uint32_t> part_of_;  // where a chain's points are after joining
+    struct Ends {
+        std::uint32_t front, back;  // see id_of
+    };
+    std::vector<Ends> ends_;              // of the chains as they are now
+};
 
 }  // namespace
 
-void extend_to_lines(std::vector<Chain>& chains, const Lattice& lattice) {
-    SegmentBuckets buckets(lattice);
-    for (std::size_t c = 0; c < chains.size(); ++c)
-        for (std::size_t k = 0; k + 1 < chains[c].points.size(); ++k)
-            buckets.add({chains[c].points[k], chains[c].points[k + 1], static_cast<std::uint32_t>(c),
-                         static_cast<std::uint32_t>(k)});
+void join_facing_ends(std::vector<Chain>& chains, const Image& response, const Lattice& lattice) {
+    EndJoiner(chains, response, lattice).run();
+}
+
+namespace {
+
+class LineExtender {
+  public:
+    LineExtender(std::vector<Chain>& chains, const Image& response, const Lattice& lattice)
+        : chains_(chains), response_(response), lattice_(lattice), buckets_(lattice) {
+        for (std::size_t c = 0; c < chains.size(); ++c)
+            for (std::size_t k = 0; k + 1 < chains[c].points.size(); ++k)
+                buckets_.add({chains[c].points[k], chains[c].points[k + 1], static_cast<std::uint32_t>(c),
+                              static_cast<std::uint32_t>(k)});
+    }
+
+    // The end of chain c, if it is free.
+    void extend(std::uint32_t c) {
+        Chain& chain = chains_[c];
+        Vec2 target;
+        if (chain.end_tie != EndTie::free || chain.points.size() < 2 || !find_ahead(c, target)) return;
+        const Vec2 direction = unit(chain.points.back() - chain.points[chain.points.size() - 2]);
+        while (chain.points.size() > 2 && dot(chain.points.back() - target, direction) > -0.5) chain.points.pop_back();
+        chain.points.push_back(target);
+        chain.end_tie = EndTie::chain;
+    }
+
+  private:
+    // Looks from behind the end to some way ahead of it for the first other chain.
+    bool find_ahead(std::uint32_t c, Vec2& found) const {
+        const Chain& chain = chains_[c];
+        const std::vector<Vec2>& points = chain.points;
+        const std::size_t n = points.size();
+        const double behind = 3.0 * chain.half_width + 4.0, ahead = 2.0 * chain.half_width + 6.0;
+        std::size_t base = n - 1;
+        while (base > 0 && length(points[base] - points[n - 1]) < behind) --base;
+        const Vec2 direction = unit(points[n - 1] - points[base]);
+        const Vec2 from = points[base], to = points[n - 1] + direction * (ahead + 12.0);
+        const double past_end = length(points[n - 1] - from);
+        double best = 1e300, other_half_width = 0.0;
+        buckets_.near(from, to, 1.0, [&](const Segment& s, Vec2 shift) {
+            if (s.chain == c) return;
+            double t = 0.0, u = 0.0;
+            if (!meet(from, to, s.a + shift, s.b + shift, t, u)) return;
+            const double distance = t * length(to - from);
+            const double other = chains_[s.chain].half_width;
+            // Only as far as the other line is wide: two separate lines may well end facing each other.
+            if (distance - past_end > ahead + 1.5 * other - 2.0) return;
+            // A stub that can be seen beyond the other line stays.
+            const double sine = std::fabs(cross(direction, unit(s.b - s.a)));
+            if ((past_end - distance) * sine + chain.half_width > other + kHiddenStub) return;
+            if (distance >= best) return;
+            best = distance;
+            found = from + (to - from) * t;
+            other_half_width = other;
+        });
+        return best < 1e300 && is_shown(chain, found, other_half_width);
+    }
+
+    // Whether the line goes on from its end until it runs into the other.
+    bool is_shown(const Chain& chain, Vec2 target, double other_half_width) const {
+        constexpr double kStride = 0.5, kMostGap = 1.5;
+        const Vec2 way = target - chain.points.back();
+        const double end = length(way) - other_half_width - 1.0;
+        double gap = 0.0;
+        for (double t = 0.0; t < end && gap <= kMostGap; t += kStride)
+            if (sample(response_, lattice_, chain.points.back() + unit(way) * t) < 0.5 * chain.contrast) gap += kStride;
+        return gap <= kMostGap;
+    }
+
+    std::vector<Chain>& chains_;
+    const Image& response_;
+    const Lattice& lattice_;
+    SegmentBuckets buckets_;
+};
+
+}  // namespace
+
+void extend_to_lines(std::vector<Chain>& chains, const Image& response, const Lattice& lattice) {
+    LineExtender extender(chains, response, lattice);
     for (std::size_t c = 0; c < chains.size(); ++c) {
-        Chain& chain = chains[c];
-        if (chain.closed) continue;
-        if (chain.end_tie == EndTie::free) extend_end(chain, static_cast<std::uint32_t>(c), buckets, chains);
-        if (chain.start_tie != EndTie::free) continue;
-        std::reverse(chain.points.begin(), chain.points.end());
-        std::swap(chain.start_tie, chain.end_tie);
-        extend_end(chain, static_cast<std::uint32_t>(c), buckets, chains);
-        std::swap(chain.start_tie, chain.end_tie);
-        std::reverse(chain.points.begin(), chain.points.end());
+        if (chains[c].closed) continue;
+        extender.extend(static_cast<std::uint32_t>(c));
+        reverse_points(chains[c]);
+        extender.extend(static_cast<std::uint32_t>(c));
+        reverse_points(chains[c]);
     }
 }
 
