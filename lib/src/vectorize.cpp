@@ -76,7 +76,7 @@ Traced trace_map(const Image& source, const Lattice& lattice, double noise, doub
         for (const bool first : {true, false}) {
             const ChainKind kind = first == grooves_first ? ChainKind::groove : ChainKind::ridge;
             std::vector<Chain>& lines = kind == ChainKind::groove ? grooves : ridges;
-            for (Chain& chain : trace_lines(map, wide, kind, {r, r < radius}, noise, energy)) lines.push_back(std::move(chain));
+            for (Chain& chain : trace_lines(map, wide, kind, {r, radius}, noise, energy)) lines.push_back(std::move(chain));
         }
     }
     tie_lines(grooves, whole, wide, ChainKind::groove, radius);

@@ -81,10 +81,10 @@ std::vector<float> distance_inside(const std::vector<std::uint8_t>& mask, const 
 // Thins a mask to lines one texel wide that keep its topology.
 void thin_mask(std::vector<std::uint8_t>& mask, const Lattice& lattice);
 
-// Lines narrower than twice `radius` texels are looked for; `alone`: only those on level ground far to both sides.
+// Lines narrower than twice `radius` texels are looked for; below `widest`, only those on level ground far to both sides.
 struct LineScale {
     double radius = 0.0;
-    bool alone = false;
+    double widest = 0.0;
 };
 
 // Grooves or ridges of a scale: centre lines with junctions resolved into long chains. What the chains stand for is

@@ -223,7 +223,8 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
         // A closing that does not span the line fills only a part of it: it is wider than it looks.
         if (chain.half_width > 2.0 && chain.contrast < 0.93 * section.depth) return false;
         const double grain = 0.5 * (4.0 * reach + 1.0) * (noise / section.depth) * (noise / section.depth);
-        const bool straight_rims = chain.half_width < 2.5 || section.wobble - grain < 0.13;
+        const double most_wobble = chain.half_width > kBroad ? 0.05 : 0.13;
+        const bool straight_rims = chain.half_width < 2.5 || section.wobble - grain < most_wobble;
         if (section.depth > std::max(3.0 * noise, 0.012) && std::fabs(section.tilt) < 0.35 * section.depth &&
             section.explained > 0.55 && straight_rims)
             return true;
@@ -278,7 +279,7 @@ bool stands_alone(const Chain& chain, std::int32_t self, const Surroundings& aro
     if (chain.half_width > 0.6 * radius || chain_length(chain) < 6.0 * chain.half_width + 8.0) return false;
     const CrossSection section = measure_cross_section(chain, self, around, 3.0 * chain.half_width + 4.0);
     return section.depth > 0.9 * chain.contrast && std::fabs(section.tilt) < 0.2 * section.depth &&
-           section.explained > 0.8;
+           section.explained > 0.93;
 }
 
 // The chains that are lines; of one that is not, the parts before and behind its greatest change that are.
@@ -299,7 +300,7 @@ std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map
         stack.pop_back();
         if (chain_energy(chain) < least_energy) continue;
         if (is_supported(chain) && is_line(chain, of, around) && 
-            (!scale.alone || stands_alone(chain, of, around, scale.radius))) {
+            (scale.radius == scale.widest || stands_alone(chain, of, around, scale.radius))) {
             kept.push_back(std::move(chain));
             continue;
         }
@@ -315,6 +316,15 @@ std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map
         stack.push_back({std::move(chain), of, splits + 1});
     }
     return kept;
+}
+
+bool sees_the_same(const Chain& chain, const Image& response, const Image& wide, const Lattice& lattice) {
+    std::vector<float> shares;
+    for (const Vec2 p : chain.points)
+        shares.push_back(sample(response, lattice, p) / std::max(1e-6f, sample(wide, lattice, p)));
+    const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
+    std::nth_element(shares.begin(), middle, shares.end());
+    return *middle > 0.95f;
 }
 
 // Fills the lines' texels to the height of the ground beside them, which is what the closing (opening) holds.
@@ -357,7 +367,17 @@ std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kin
     measure_strands(skeleton, response, lattice);
     std::vector<Chain> chains = join_strands(skeleton, response, lattice, kind);
     chains = keep_lines(chains, map, lattice, noise, 2e-5 * energy, scale);
-    erase_lines(map, response, lattice, chains, kind);
+    if (scale.radius == scale.widest) {
+        erase_lines(map, response, lattice, chains, kind);
+        return chains;
+    }
+    // Where two lines cross, a small square may not reach the ground; a large one is taken where it sees the same line.
+    const Image wide = hat_response(map, lattice, kind, square_radius(scale.widest));
+    const auto middle = std::stable_partition(chains.begin(), chains.end(), [&](const Chain& chain) {
+        return sees_the_same(chain, response, wide, lattice);
+    });
+    erase_lines(map, wide, lattice, {chains.begin(), middle}, kind);
+    erase_lines(map, response, lattice, {middle, chains.end()}, kind);
     return chains;
 }
 
