@@ -163,11 +163,14 @@ Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& optio
                                const Progress& progress, StageClock& clock) {
     VectorizeOptions vectorize = options.vectorize;
     vectorize.threads = options.threads;
+    if (!clock.begin("vectorize")) return stopped();
+    const auto traced = trace_map(map, vectorize, progress);
+    if (!traced) return traced.error();
     for (int attempt = 0;; ++attempt) {
         if (!clock.begin("vectorize")) return stopped();
-        auto traced = vectorize_map(map, vectorize, progress);
-        if (!traced) return traced.error();
-        auto candidate = pack_and_measure(std::move(*traced), map, options, budget, clock);
+        auto fitted = fit_traced_map(*traced, map, vectorize, progress);
+        if (!fitted) return fitted.error();
+        auto candidate = pack_and_measure(std::move(*fitted), map, options, budget, clock);
         if (!candidate) return candidate.error();
         const std::size_t bytes = texture_bytes(candidate->packed.textures);
         const int elements = candidate->stats.lines + candidate->stats.quadratics;

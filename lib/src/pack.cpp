@@ -266,7 +266,8 @@ Packer::Failure Packer::encode_element(std::size_t index) {
     ElementCode code;
     if (Failure error = encode_points(index, code)) return error;
     if (code.p0 == code.p2) {
-        if (code.quadratic) {
+        // A quadratic may come back to where it began, but not when it has gone nowhere in between.
+        if (code.quadratic && code.p1 != code.p0) {
             return invalid("element " + text(index) + " at " + place_text(e.element.p0) +
                            " begins and ends at the same place");
         }

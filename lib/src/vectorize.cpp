@@ -22,12 +22,6 @@ using namespace vectorizing;
 // Regions that hold a smaller share of the map's sum of squares than this join a neighbour.
 constexpr double kLeastRegionShare = 4e-5;
 
-struct Traced {
-    std::vector<Chain> lines, steps;
-    Image flattened;  // the map without the lines
-    Regions regions;
-};
-
 // Mean differences between neighbouring rows (columns), and last between the opposite borders.
 std::vector<double> row_differences(const Image& map, bool columns) {
     const int lines = columns ? map.width : map.height, length = columns ? map.height : map.width;
@@ -60,8 +54,10 @@ double total_energy(const Image& map, Wrap wrap) {
     return compare_heights(flat, map, wrap).input_variance * static_cast<double>(map.texels.size());
 }
 
-Traced trace_map(const Image& source, const Lattice& lattice, double noise, double energy) {
-    Traced traced;
+// Lines, then the plateaus in what is left of the map without them.
+void find_features(const Image& source, Traced& traced) {
+    const Lattice& lattice = traced.lattice;
+    const double noise = traced.noise, energy = traced.energy;
     const double radius = std::clamp(0.02 * std::min(lattice.width, lattice.height), 6.0, 24.0);
     // A line along the border of a map that does not tile is half outside: a mirrored margin makes it whole.
     const int margin = lattice.wrap ? 0 : static_cast<int>(radius) + 8;
@@ -87,7 +83,6 @@ Traced trace_map(const Image& source, const Lattice& lattice, double noise, doub
     traced.flattened = crop_margin(map, margin, lattice);
     traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy);
     traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
-    return traced;
 }
 
 double chain_length(const std::vector<Element>& elements) {
@@ -237,9 +232,10 @@ std::size_t count_lines(const std::vector<Chain>& chains, double tolerance) {
 
 // A curve that follows the grain of a ragged edge costs an element every few texels: first the fit is loosened, then
 // the least regions are given up, until the steps leave room for lines.
-std::vector<FittedChain> fit_within(Traced& traced, const Lattice& lattice, const VectorizeOptions& options,
-                                    std::size_t budget, Vectorized& result, int threads) {
-    const double energy = result.energy;
+std::vector<FittedChain> fit_within(Traced& traced, const VectorizeOptions& options, std::size_t budget,
+                                    Vectorized& result, int threads) {
+    const Lattice& lattice = traced.lattice;
+    const double energy = traced.energy;
     double share = kLeastRegionShare;
     const double asked = options.most_elements > 0 ? 1.7 : 1.0;  // a limit that was asked for goes before beauty
     const double loosest = asked * std::max(1.2, 0.0012 * std::min(lattice.width, lattice.height));
@@ -373,44 +369,68 @@ std::size_t element_budget(const Lattice& lattice, const VectorizeOptions& optio
     return std::max<std::size_t>(64, static_cast<std::size_t>(std::min(bytes, 60.0 * 1024.0 + bytes / 16.0) / 36.0));
 }
 
+Wrap choose_wrap(const Image& map, WrapChoice choice) {
+    if (choice == WrapChoice::automatic) return borders_match(map) ? Wrap::repeat : Wrap::clamp;
+    return choice == WrapChoice::repeat ? Wrap::repeat : Wrap::clamp;
+}
+
+int thread_count(const VectorizeOptions& options) {
+    return options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+ProfileOptions profile_options(const Traced& traced) {
+    ProfileOptions options;
+    options.noise = traced.noise;
+    options.reach = std::clamp(0.06 * std::min(traced.lattice.width, traced.lattice.height), 8.0, 64.0);
+    options.most_profiles = static_cast<std::size_t>(std::clamp(traced.lattice.size() / 4096, 16, 400));
+    return options;
+}
+
+Error stopped() { return {ErrorCode::invalid_argument, "vectorize: stopped by the caller"}; }
+
 }  // namespace
 
-Result<Vectorized> vectorize_map(const HeightMap& source, const VectorizeOptions& options, const Progress& progress) {
-    const Status checked = check_options(source, options);
+Result<TracedMap> trace_map(const HeightMap& map, const VectorizeOptions& options, const Progress& progress) {
+    const Status checked = check_options(map, options);
+    if (!checked) return checked.error();
+    const Wrap wrap = choose_wrap(map.image, options.wrap);
+    auto traced = std::make_shared<Traced>();
+    traced->lattice = {map.image.width, map.image.height, wrap == Wrap::repeat};
+    traced->noise = estimate_noise(map.image, traced->lattice);
+    traced->energy = total_energy(map.image, wrap);
+    if (progress && !progress("vectorize", 0.05)) return stopped();
+    find_features(map.image, *traced);
+    return TracedMap{std::move(traced)};
+}
+
+Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, const VectorizeOptions& options,
+                                  const Progress& progress) {
+    const Status checked = check_options(map, options);
     if (!checked) return checked.error();
     const auto proceed = [&](double fraction) { return !progress || progress("vectorize", fraction); };
-    const Error stopped{ErrorCode::invalid_argument, "vectorize: stopped by the caller"};
-    const Image& map = source.image;
-    const Wrap wrap = options.wrap == WrapChoice::automatic ? (borders_match(map) ? Wrap::repeat : Wrap::clamp)
-                      : options.wrap == WrapChoice::repeat  ? Wrap::repeat
-                                                            : Wrap::clamp;
-    const Lattice lattice{map.width, map.height, wrap == Wrap::repeat};
-    const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-
+    if (!proceed(0.4)) return stopped();
+    Traced traced = *found.found;  // regions are merged and levels settled to fit the budget
+    const Lattice& lattice = traced.lattice;
     Vectorized result;
-    result.noise = estimate_noise(map, lattice);
-    const double energy = total_energy(map, wrap);
-    if (!proceed(0.05)) return stopped;
-    result.energy = energy;
-    Traced traced = trace_map(map, lattice, result.noise, energy);
-    if (!proceed(0.4)) return stopped;
-
+    result.noise = traced.noise;
+    result.energy = traced.energy;
     const std::size_t budget = element_budget(lattice, options);
-    std::vector<FittedChain> fitted = fit_within(traced, lattice, options, budget, result, threads);
+    std::vector<FittedChain> fitted = fit_within(traced, options, budget, result, thread_count(options));
     untangle_steps(fitted, lattice, result.tolerance);
-    if (!proceed(0.6)) return stopped;
-
-    ProfileOptions profile_options;
-    profile_options.noise = result.noise;
-    profile_options.reach = std::clamp(0.06 * std::min(map.width, map.height), 8.0, 64.0);
-    profile_options.most_profiles = static_cast<std::size_t>(std::clamp(lattice.size() / 4096, 16, 400));
-    ProfileSet set = measure_profiles(fitted, map, lattice, traced.regions, profile_options);
-    drop_useless(fitted, energy, budget);
-    if (!proceed(0.8)) return stopped;
-
+    if (!proceed(0.6)) return stopped();
+    const ProfileSet set = measure_profiles(fitted, map.image, lattice, traced.regions, profile_options(traced));
+    drop_useless(fitted, traced.energy, budget);
+    if (!proceed(0.8)) return stopped();
+    const Wrap wrap = lattice.wrap ? Wrap::repeat : Wrap::clamp;
     result.pattern = make_pattern(fitted, set, traced.regions, lattice, options, wrap);
     for (const FittedChain& f : fitted) result.path_length_texels += f.length;
     return result;
+}
+
+Result<Vectorized> vectorize_map(const HeightMap& map, const VectorizeOptions& options, const Progress& progress) {
+    const Result<TracedMap> traced = trace_map(map, options, progress);
+    if (!traced) return traced.error();
+    return fit_traced_map(*traced, map, options, progress);
 }
 
 }  // namespace burin

@@ -64,6 +64,16 @@ struct Regions {
     std::vector<std::uint32_t> area;   // texels, per region
 };
 
+// All that was found in a map.
+struct Traced {
+    Lattice lattice;
+    double noise = 0.0;   // see Vectorized
+    double energy = 0.0;
+    std::vector<Chain> lines, steps;
+    Image flattened;  // the map without the lines
+    Regions regions;
+};
+
 // The map with a margin that mirrors it, and back.
 Image mirror_margin(const Image& map, int margin);
 Image crop_margin(const Image& map, int margin, const Lattice& lattice);

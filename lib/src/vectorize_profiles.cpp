@@ -80,9 +80,11 @@ void claim_piece(std::vector<Owner>& owners, const Lattice& lattice, const Piece
             const Vec2 q = Vec2{x + 0.5, y + 0.5} - piece.a;
             const double along = dot(q, t), across = dot(q, n);
             const double past = along < 0.0 ? -along : along > l ? along - l : 0.0;
-            const double distance = past > 0.0 ? std::hypot(past, across) : std::fabs(across);
+            const double square = past * past + across * across;
             Owner& owner = owners[i];
-            if (distance > reach || distance >= owner.distance) continue;
+            const double limit = std::min(reach, static_cast<double>(owner.distance));
+            if (square >= limit * limit) continue;
+            const double distance = std::sqrt(square);
             owner.distance = static_cast<float>(distance);
             owner.chain = chain;
             owner.offset = static_cast<float>(past > 0.0 ? (across < 0.0 ? -distance : distance) : across);
@@ -221,9 +223,12 @@ struct Cluster {
     double step = 0.0;  // right level - left level
 };
 
-// Longest chains first: each joins the cluster most like it, or founds one.
+// Longest chains first: each joins the cluster most like it, or founds one. `reversed`: 1 for the chains that were turned
+// round for that.
 std::vector<Cluster> cluster_sections(std::vector<FittedChain>& chains, std::vector<Section>& sections,
-                                      const Regions& regions, double closeness, double noise) {
+                                      const Regions& regions, double closeness, double noise,
+                                      std::vector<std::uint8_t>& reversed) {
+    reversed.assign(chains.size(), 0);
     std::vector<std::size_t> order(chains.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
@@ -249,6 +254,7 @@ std::vector<Cluster> cluster_sections(std::vector<FittedChain>& chains, std::vec
         }
         if (flip) {
             reverse_chain(chains[c]);
+            reversed[c] = 1;
             sections[c] = mirrored;
         }
         chains[c].profile = static_cast<std::uint32_t>(chosen);
@@ -318,7 +324,8 @@ void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, cons
 
 ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, const Lattice& lattice,
                             Regions& regions, const ProfileOptions& options) {
-    settle_levels(regions, map, find_owners(chains, lattice, options.reach), options.reach);
+    std::vector<Owner> owners = find_owners(chains, lattice, options.reach);
+    settle_levels(regions, map, owners, options.reach);
     // Every pair of levels needs a step profile of its own: with many regions there are fewer levels.
     double closeness_of_levels = std::max(2.0 * options.noise, 0.02);
     share_levels(regions, closeness_of_levels);
@@ -328,21 +335,22 @@ ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, 
     for (FittedChain& f : chains)
         if (f.chain.kind == ChainKind::step && regions.level[f.chain.left_region] == regions.level[f.chain.right_region])
             f.chain.kind = ChainKind::groove;
-    const std::vector<Owner> owners = find_owners(chains, lattice, options.reach);
     const int half = static_cast<int>(std::ceil(options.reach / kSectionStep));
     ProfileSet set;
     double closeness = 0.04;
     std::vector<Cluster> clusters;
     for (int round = 0; round < 6; ++round, closeness *= 1.6) {
         std::vector<Section> sections = measure_sections(chains, map, owners, regions, half);
-        clusters = cluster_sections(chains, sections, regions, closeness, options.noise);
+        std::vector<std::uint8_t> reversed;
+        clusters = cluster_sections(chains, sections, regions, closeness, options.noise, reversed);
+        for (Owner& owner : owners)
+            if (owner.chain != kNobody && reversed[owner.chain]) owner.offset = -owner.offset;
         if (clusters.size() <= options.most_profiles) break;
     }
     for (const Cluster& cluster : clusters)
         set.profiles.push_back(fit_profile(cluster.section.height, cluster.section.weight, cluster.step, options.noise));
     for (FittedChain& fitted : chains) fitted.gain = 0.0;
-    const std::vector<Owner> after = find_owners(chains, lattice, options.reach);
-    measure_gains(chains, set, map, after, regions);
+    measure_gains(chains, set, map, owners, regions);
     return set;
 }
 

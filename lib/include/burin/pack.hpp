@@ -26,7 +26,7 @@ struct PackOptions {
 // What packing shared and left out. Nothing is left out silently.
 struct PackStatistics {
     std::size_t dropped_elements =
-        0;                     // lines shorter than a coordinate step; their neighbours meet without them
+        0;                     // elements shorter than a coordinate step; their neighbours meet without them
     std::size_t styles = 0;    // texels; equal ones are stored once
     std::size_t profiles = 0;  // distinct profiles
     std::size_t references_listed = 0;  // sum of all cells' counts

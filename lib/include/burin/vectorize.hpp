@@ -1,6 +1,7 @@
 // Stage vectorize: turns a height map into paths with cross-sections.
 //
-//     HeightMap --[vectorize_map]--> Vectorized (a Pattern and what is known about it)
+//     HeightMap --[trace_map]--> TracedMap --[fit_traced_map]--> Vectorized (a Pattern and what is known about it)
+//     HeightMap --[vectorize_map]--> Vectorized, both in one
 //
 // Grooves and ridges become centre lines with a symmetric or asymmetric profile; plateaus become closed step paths, or
 // step paths that end on each other. A groove that crosses another stays one path. Chains are fitted by `fit_curve`,
@@ -12,6 +13,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string_view>
 
 #include <burin/heightmap.hpp>
@@ -47,6 +49,22 @@ struct Vectorized {
     double tolerance = 0.0;           // used for fitting, texels
     double path_length_texels = 0.0;  // of all paths together
 };
+
+namespace vectorizing {
+struct Traced;
+}
+
+// Centre lines and step contours as rows of sub-texel points, and the plateaus between them; nothing is fitted yet.
+// Tracing is the greater part of the work, and does not depend on tolerance and most_elements: who looks for the right
+// number of elements traces once and fits several times.
+struct TracedMap {
+    std::shared_ptr<const vectorizing::Traced> found;
+};
+
+// Both fail, and what they need of map and options, as vectorize_map; the map and the wrap are the same in both.
+Result<TracedMap> trace_map(const HeightMap& map, const VectorizeOptions& options = {}, const Progress& progress = {});
+Result<Vectorized> fit_traced_map(const TracedMap& traced, const HeightMap& map, const VectorizeOptions& options = {},
+                                  const Progress& progress = {});
 
 // Requires: a map of at least 1 x 1 texels with values in [0, 1].
 // Ensures: a map without features, or one that is not path-like, gives a pattern that `resolve_pattern` accepts, with no
