@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace burin::vectorizing {
 namespace {
@@ -148,9 +149,15 @@ bool prune_spurs(Skeleton& skeleton) {
 
 // A wide crossing thins to two nodes with a short strand between; it is one node.
 void contract_short(Skeleton& skeleton, const Lattice& lattice) {
+    std::vector<int> same_as(skeleton.nodes.size());
+    std::iota(same_as.begin(), same_as.end(), 0);
+    const auto find = [&](int n) {
+        while (same_as[n] != n) n = same_as[n] = same_as[same_as[n]];
+        return n;
+    };
     for (Strand& strand : skeleton.strands) {
         if (strand.gone || strand.node[0] < 0 || strand.node[1] < 0) continue;
-        const int a = strand.node[0], b = strand.node[1];
+        const int a = find(strand.node[0]), b = find(strand.node[1]);
         const double radius = std::max(skeleton.nodes[a].radius, skeleton.nodes[b].radius);
         if (texel_length(strand) > 1.4 * radius + 1.0) continue;
         strand.gone = true;
@@ -158,31 +165,28 @@ void contract_short(Skeleton& skeleton, const Lattice& lattice) {
         const Vec2 pb = nearest_image(skeleton.nodes[b].position, skeleton.nodes[a].position, lattice);
         skeleton.nodes[a].position = (skeleton.nodes[a].position + pb) * 0.5;
         skeleton.nodes[a].radius = radius;
-        for (Strand& other : skeleton.strands)
-            for (int& n : other.node)
-                if (n == b) n = a;
+        same_as[b] = a;
     }
+    for (Strand& strand : skeleton.strands)
+        for (int& n : strand.node)
+            if (n >= 0) n = find(n);
+}
+
+void reverse_strand(Strand& strand) {
+    std::reverse(strand.texels.begin(), strand.texels.end());
+    std::swap(strand.node[0], strand.node[1]);
 }
 
 // After pruning, two strands may meet at a node that nothing else touches: they are one strand.
 void merge_through(Skeleton& skeleton, const Lattice& lattice) {
-    std::vector<std::array<int, 2>> touching(skeleton.nodes.size(), {-1, -1});
-    std::vector<int> count(skeleton.nodes.size(), 0);
-    const auto recount = [&] {
-        std::fill(count.begin(), count.end(), 0);
-        for (std::size_t s = 0; s < skeleton.strands.size(); ++s) {
-            if (skeleton.strands[s].gone) continue;
-            for (const int n : skeleton.strands[s].node)
-                if (n >= 0) {
-                    if (count[n] < 2) touching[n][count[n]] = static_cast<int>(s);
-                    ++count[n];
-                }
-        }
-    };
-    recount();
+    std::vector<std::vector<int>> touching(skeleton.nodes.size());
+    for (std::size_t s = 0; s < skeleton.strands.size(); ++s)
+        for (const int n : skeleton.strands[s].node)
+            if (n >= 0 && !skeleton.strands[s].gone) touching[n].push_back(static_cast<int>(s));
     for (std::size_t n = 0; n < skeleton.nodes.size(); ++n) {
-        if (count[n] != 2) continue;
+        if (touching[n].size() != 2) continue;
         const int a = touching[n][0], b = touching[n][1];
+        touching[n].clear();
         if (a == b) {  // a loop that starts and ends here
             Strand& strand = skeleton.strands[a];
             strand.loop = true;
@@ -192,19 +196,13 @@ void merge_through(Skeleton& skeleton, const Lattice& lattice) {
         Strand& first = skeleton.strands[a];
         Strand& second = skeleton.strands[b];
         const int here = static_cast<int>(n);
-        if (first.node[1] != here) {
-            std::reverse(first.texels.begin(), first.texels.end());
-            std::swap(first.node[0], first.node[1]);
-        }
-        if (second.node[0] != here) {
-            std::reverse(second.texels.begin(), second.texels.end());
-            std::swap(second.node[0], second.node[1]);
-        }
+        if (first.node[1] != here) reverse_strand(first);
+        if (second.node[0] != here) reverse_strand(second);
         const Vec2 shift = nearest_image(second.texels.front(), first.texels.back(), lattice) - second.texels.front();
         for (const Vec2 p : second.texels) first.texels.push_back(p + shift);
         first.node[1] = second.node[1];
         second.gone = true;
-        recount();
+        if (first.node[1] >= 0) std::replace(touching[first.node[1]].begin(), touching[first.node[1]].end(), b, a);
     }
 }
 
