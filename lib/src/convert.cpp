@@ -199,6 +199,8 @@ bool can_afford_refinement(const Pattern& pattern, const Image& map) {
 Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
     if (!options.refine || candidate.traced.pattern.paths.empty()) return candidate;
+    // Where the paths are not what the map is made of, their exact place shows nothing.
+    if (!candidate.stats.path_like) return candidate;
     if (!can_afford_refinement(candidate.traced.pattern, map.image)) return candidate;
     if (!clock.begin("refine")) return stopped();
     RefineOptions refinement = options.refinement;

@@ -40,9 +40,7 @@ def validated(verdicts, burin, output, what):
 def try_file(verdicts, burin, path, arguments, what):
     with harness.Scratch() as folder:
         output = os.path.join(folder, "out.glb")
-        # Valid pictures full of detail are work, not a hang.
-        limit = 150 if "_edge_" in os.path.basename(path) else LIMIT_SECONDS
-        outcome = harness.run(burin, ["convert"] + arguments + ["-o", output], timeout=limit)
+        outcome = harness.run(burin, ["convert"] + arguments + ["-o", output], timeout=LIMIT_SECONDS)
         judge(verdicts, outcome, what, output)
         check_no_rest(verdicts, folder, outcome, what)
         if outcome.status == 0:
