@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include <opencv2/imgproc.hpp>
@@ -232,6 +233,31 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
     return false;
 }
 
+// Connected parts of a mask: their number per texel, -1 outside.
+std::vector<std::int32_t> label_parts(const std::vector<std::uint8_t>& mask, const Lattice& lattice) {
+    std::vector<std::int32_t> part(mask.size(), -1);
+    std::vector<int> stack;
+    std::int32_t count = 0;
+    for (int i = 0; i < lattice.size(); ++i) {
+        if (!mask[i] || part[i] >= 0) continue;
+        part[i] = count;
+        stack.assign(1, i);
+        while (!stack.empty()) {
+            const int x = stack.back() % lattice.width, y = stack.back() / lattice.width;
+            stack.pop_back();
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const int j = lattice.index(x + dx, y + dy);
+                    if (j < 0 || !mask[j] || part[j] >= 0) continue;
+                    part[j] = count;
+                    stack.push_back(j);
+                }
+        }
+        ++count;
+    }
+    return part;
+}
+
 double least_response(double noise) { return std::max(4.0 * noise, 0.012); }
 
 int square_radius(double radius) { return std::max(2, static_cast<int>(std::lround(radius))); }
@@ -318,13 +344,28 @@ std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map
     return kept;
 }
 
-bool sees_the_same(const Chain& chain, const Image& response, const Image& wide, const Lattice& lattice) {
-    std::vector<float> shares;
-    for (const Vec2 p : chain.points)
-        shares.push_back(sample(response, lattice, p) / std::max(1e-6f, sample(wide, lattice, p)));
-    const auto middle = shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2);
-    std::nth_element(shares.begin(), middle, shares.end());
-    return *middle > 0.95f;
+// A letter of broad strokes is lines as a whole or an area as a whole: where a good part of a shape's broad strokes are no
+// lines, the others go as well. `all`: chains before they were judged.
+void drop_partial_shapes(std::vector<Chain>& kept, const std::vector<Chain>& all, const std::vector<std::int32_t>& part,
+                         const Lattice& lattice) {
+    constexpr double kBroadStroke = 3.0, kGoodPart = 0.75;
+    const auto part_of = [&](const Chain& chain) {
+        for (const Vec2 p : chain.points) {
+            const std::int32_t label = part[lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))];
+            if (label >= 0) return label;
+        }
+        return std::int32_t{-1};
+    };
+    std::map<std::int32_t, std::pair<double, double>> energy;  // of all, of those kept
+    for (const Chain& chain : all)
+        if (chain.half_width > kBroadStroke) energy[part_of(chain)].first += chain_energy(chain);
+    for (const Chain& chain : kept)
+        if (chain.half_width > kBroadStroke) energy[part_of(chain)].second += chain_energy(chain);
+    std::erase_if(kept, [&](const Chain& chain) {
+        if (chain.half_width <= kBroadStroke) return false;
+        const auto& [whole, lines] = energy[part_of(chain)];
+        return lines < kGoodPart * whole;
+    });
 }
 
 // Fills the lines' texels to the height of the ground beside them, which is what the closing (opening) holds.
@@ -340,6 +381,15 @@ void erase_lines(Image& map, const Image& response, const Lattice& lattice, cons
             map.texels[texel] += sign * response.texels[texel];
         });
     }
+}
+
+// Fills what is left of the texels that several chains claim.
+void erase_crossings(Image& map, const Lattice& lattice, const std::vector<std::int32_t>& owner, ChainKind kind,
+                     int radius) {
+    const Image response = hat_response(map, lattice, kind, radius);
+    const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
+    for (std::size_t i = 0; i < owner.size(); ++i)
+        if (owner[i] == kSeveral) map.texels[i] += sign * response.texels[i];
 }
 
 }  // namespace
@@ -361,23 +411,18 @@ std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kin
     // A wide window would hide a shallow line where it comes near a deep one.
     std::vector<std::uint8_t> mask = strong_mask(response, lattice, std::max(4, r / 3), least);
     drop_specks(mask, response, lattice, 24.0 * least * least);
+    const std::vector<std::int32_t> part = label_parts(mask, lattice);
     const std::vector<float> thickness = distance_inside(mask, lattice);
     thin_mask(mask, lattice);
     Skeleton skeleton = trace_skeleton(mask, thickness, lattice);
     measure_strands(skeleton, response, lattice);
-    std::vector<Chain> chains = join_strands(skeleton, response, lattice, kind);
-    chains = keep_lines(chains, map, lattice, noise, 2e-5 * energy, scale);
-    if (scale.radius == scale.widest) {
-        erase_lines(map, response, lattice, chains, kind);
-        return chains;
-    }
-    // Where two lines cross, a small square may not reach the ground; a large one is taken where it sees the same line.
-    const Image wide = hat_response(map, lattice, kind, square_radius(scale.widest));
-    const auto middle = std::stable_partition(chains.begin(), chains.end(), [&](const Chain& chain) {
-        return sees_the_same(chain, response, wide, lattice);
-    });
-    erase_lines(map, wide, lattice, {chains.begin(), middle}, kind);
-    erase_lines(map, response, lattice, {middle, chains.end()}, kind);
+    const std::vector<Chain> all = join_strands(skeleton, response, lattice, kind);
+    std::vector<Chain> chains = keep_lines(all, map, lattice, noise, 2e-5 * energy, scale);
+    drop_partial_shapes(chains, all, part, lattice);
+    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
+    erase_lines(map, response, lattice, chains, kind);
+    // Where two thin lines cross, a small square does not reach the ground.
+    if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, kind, square_radius(scale.widest));
     return chains;
 }
 
