@@ -63,8 +63,8 @@ void find_features(const Image& source, Traced& traced) {
     const int margin = lattice.wrap ? 0 : static_cast<int>(radius) + 8;
     const Lattice wide{lattice.width + 2 * margin, lattice.height + 2 * margin, lattice.wrap};
     Image map = mirror_margin(source, margin);
-    const Image whole = map;
     std::vector<Chain> grooves, ridges;
+    Image with_grooves = map, with_ridges = map;  // without the lines of the other kind
     // Thin lines first: between them, to a wide look, the ground is a ridge.
     for (const double r : {std::clamp(0.4 * radius, 4.0, 8.0), radius}) {
         const bool grooves_first = line_energy(map, wide, ChainKind::groove, r, noise) >=
@@ -72,11 +72,16 @@ void find_features(const Image& source, Traced& traced) {
         for (const bool first : {true, false}) {
             const ChainKind kind = first == grooves_first ? ChainKind::groove : ChainKind::ridge;
             std::vector<Chain>& lines = kind == ChainKind::groove ? grooves : ridges;
-            for (Chain& chain : trace_lines(map, wide, kind, {r, radius}, noise, energy)) lines.push_back(std::move(chain));
+            Image& with_same = kind == ChainKind::groove ? with_grooves : with_ridges;
+            Image& with_other = kind == ChainKind::groove ? with_ridges : with_grooves;
+            const Image before = map;
+            for (Chain& chain : trace_lines(map, with_same, wide, kind, {r, radius}, noise, energy))
+                lines.push_back(std::move(chain));
+            for (std::size_t i = 0; i < map.texels.size(); ++i) with_other.texels[i] += map.texels[i] - before.texels[i];
         }
     }
-    tie_lines(grooves, whole, wide, ChainKind::groove, radius);
-    tie_lines(ridges, whole, wide, ChainKind::ridge, radius);
+    tie_lines(grooves, with_grooves, wide, ChainKind::groove, radius);
+    tie_lines(ridges, with_ridges, wide, ChainKind::ridge, radius);
     traced.lines = std::move(grooves);
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);

@@ -99,11 +99,12 @@ struct LineScale {
 
 // Grooves or ridges of a scale: centre lines with junctions resolved into long chains. What the chains stand for is
 // erased from the map, so that plateaus and lines of the other sign can be looked for in the rest. A chain that explains
-// less than a little of `energy`, the map's whole sum of squares, is left out.
-std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kind, const LineScale& scale, double noise,
+// less than a little of `energy`, the map's whole sum of squares, is left out. `intact`: the map with all lines of this
+// kind still in it, where they are measured.
+std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& lattice, ChainKind kind, const LineScale& scale, double noise,
                                double energy);
 
-// Joins and ties the ends of all lines of one kind, of the map as it was before any was erased: the two below.
+// Joins and ties the ends of all lines of one kind by the map that has them in it: the two below.
 void tie_lines(std::vector<Chain>& chains, const Image& map, const Lattice& lattice, ChainKind kind, double radius);
 
 // Ends of two chains that continue each other, with the response (see trace_lines) shown in between, make one chain: a

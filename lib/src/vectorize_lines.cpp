@@ -82,22 +82,27 @@ void drop_specks(std::vector<std::uint8_t>& mask, const Image& response, const L
     }
 }
 
-// Calls visit(index) for the texels within `reach` of the chain, some more than once.
+// Calls visit(point, normal) about once a texel along the chain.
 template <typename Visit>
-void for_each_texel_near(const Chain& chain, const Lattice& lattice, int reach, const Visit& visit) {
+void for_each_place(const Chain& chain, const Visit& visit) {
     for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
         const Vec2 a = chain.points[i], b = chain.points[i + 1];
+        if (length(b - a) == 0.0) continue;
         const int pieces = std::max(1, static_cast<int>(std::ceil(length(b - a))));
-        for (int piece = 0; piece <= pieces; ++piece) {
-            const Vec2 p = lerp(a, b, static_cast<double>(piece) / pieces);
-            const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
-            for (int dy = -reach; dy <= reach; ++dy)
-                for (int dx = -reach; dx <= reach; ++dx) {
-                    const int j = dx * dx + dy * dy <= reach * reach ? lattice.index(x + dx, y + dy) : -1;
-                    if (j >= 0) visit(j);
-                }
-        }
+        for (int piece = 0; piece <= pieces; ++piece)
+            visit(lerp(a, b, static_cast<double>(piece) / pieces), normal_of(unit(b - a)));
     }
+}
+
+// Calls visit(index, centre) for the texels within `reach` of p; the centre is the one near p on a map that tiles.
+template <typename Visit>
+void for_each_texel_near(Vec2 p, const Lattice& lattice, int reach, const Visit& visit) {
+    const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
+    for (int dy = -reach; dy <= reach; ++dy)
+        for (int dx = -reach; dx <= reach; ++dx) {
+            const int j = dx * dx + dy * dy <= reach * reach ? lattice.index(x + dx, y + dy) : -1;
+            if (j >= 0) visit(j, Vec2{x + dx + 0.5, y + dy + 0.5});
+        }
 }
 
 double chain_length(const Chain& chain) {
@@ -114,9 +119,11 @@ std::vector<std::int32_t> claim_texels(const std::vector<Chain>& chains, const L
     std::vector<std::int32_t> owner(static_cast<std::size_t>(lattice.size()), kNobody);
     for (std::size_t c = 0; c < chains.size(); ++c) {
         const int reach = static_cast<int>(std::ceil(chains[c].half_width + 1.0));
-        for_each_texel_near(chains[c], lattice, reach, [&](int texel) {
-            const bool free = owner[texel] == kNobody || owner[texel] == static_cast<std::int32_t>(c);
-            owner[texel] = free ? static_cast<std::int32_t>(c) : kSeveral;
+        for_each_place(chains[c], [&](Vec2 p, Vec2) {
+            for_each_texel_near(p, lattice, reach, [&](int texel, Vec2) {
+                const bool free = owner[texel] == kNobody || owner[texel] == static_cast<std::int32_t>(c);
+                owner[texel] = free ? static_cast<std::int32_t>(c) : kSeveral;
+            });
         });
     }
     return owner;
@@ -368,17 +375,35 @@ void drop_partial_shapes(std::vector<Chain>& kept, const std::vector<Chain>& all
     });
 }
 
+// Whether something deeper than the ground, and no other chain, lies beside a place of a chain: there the chain crosses an
+// area or a line that is still to be found, and takes nothing away.
+bool crosses_unknown(const Chain& chain, Vec2 p, Vec2 normal, const Image& response, const Lattice& lattice,
+                     const std::vector<std::int32_t>& owner) {
+    const double beside = 1.6 * chain.half_width + 1.5;
+    for (const double side : {-beside, beside}) {
+        const Vec2 q = p + normal * side;
+        const int texel = lattice.nearest(static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)));
+        if (owner[texel] == kNobody && sample(response, lattice, q) > 0.5 * chain.contrast) return true;
+    }
+    return false;
+}
+
 // Fills the lines' texels to the height of the ground beside them, which is what the closing (opening) holds.
 void erase_lines(Image& map, const Image& response, const Lattice& lattice, const std::vector<Chain>& chains,
-                 ChainKind kind) {
+                 const std::vector<std::int32_t>& owner, ChainKind kind) {
     std::vector<std::uint8_t> erased(map.texels.size(), 0);
     const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
     for (const Chain& chain : chains) {
         const int reach = static_cast<int>(std::ceil(1.5 * chain.half_width + 2.0));
-        for_each_texel_near(chain, lattice, reach, [&](int texel) {
-            if (erased[texel]) return;
-            erased[texel] = 1;
-            map.texels[texel] += sign * response.texels[texel];
+        for_each_place(chain, [&](Vec2 p, Vec2 normal) {
+            if (crosses_unknown(chain, p, normal, response, lattice, owner)) return;
+            const bool at_end = !chain.closed && (p == chain.points.front() || p == chain.points.back());
+            for_each_texel_near(p, lattice, reach, [&](int texel, Vec2 centre) {
+                // Beyond the place itself only at the ends: the next one may cross something.
+                if (erased[texel] || (!at_end && std::fabs(cross(centre - p, normal)) > 1.0)) return;
+                erased[texel] = 1;
+                map.texels[texel] += sign * response.texels[texel];
+            });
         });
     }
 }
@@ -403,8 +428,8 @@ double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, dou
     return sum;
 }
 
-std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kind, const LineScale& scale,
-                               double noise, double energy) {
+std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& lattice, ChainKind kind,
+                               const LineScale& scale, double noise, double energy) {
     const int r = square_radius(scale.radius);
     const Image response = hat_response(map, lattice, kind, r);
     const double least = least_response(noise);
@@ -415,12 +440,13 @@ std::vector<Chain> trace_lines(Image& map, const Lattice& lattice, ChainKind kin
     const std::vector<float> thickness = distance_inside(mask, lattice);
     thin_mask(mask, lattice);
     Skeleton skeleton = trace_skeleton(mask, thickness, lattice);
-    measure_strands(skeleton, response, lattice);
-    const std::vector<Chain> all = join_strands(skeleton, response, lattice, kind);
+    const Image whole = hat_response(intact, lattice, kind, r);
+    measure_strands(skeleton, whole, lattice);
+    const std::vector<Chain> all = join_strands(skeleton, whole, lattice, kind);
     std::vector<Chain> chains = keep_lines(all, map, lattice, noise, 2e-5 * energy, scale);
     drop_partial_shapes(chains, all, part, lattice);
     const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
-    erase_lines(map, response, lattice, chains, kind);
+    erase_lines(map, response, lattice, chains, owner, kind);
     // Where two thin lines cross, a small square does not reach the ground.
     if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, kind, square_radius(scale.widest));
     return chains;
