@@ -2,7 +2,6 @@
 #include <burin/vectorize.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <thread>
 
@@ -11,6 +10,7 @@
 #include <burin/rasterize.hpp>
 #include <burin/resolve.hpp>
 
+#include "vectorize_fit.hpp"
 #include "vectorize_internal.hpp"
 #include "vectorize_profiles.hpp"
 
@@ -90,134 +90,6 @@ void find_features(const Image& source, Traced& traced) {
     traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
 }
 
-double chain_length(const std::vector<Element>& elements) {
-    double sum = 0.0;
-    for (const Element& e : elements)
-        sum += e.kind == ElementKind::line ? length(e.p2 - e.p0)
-                                           : 0.5 * (length(e.p1 - e.p0) + length(e.p2 - e.p1) + length(e.p2 - e.p0)) +
-                                                 (length(e.p2 - e.p0) - 0.5 * (length(e.p1 - e.p0) + length(e.p2 - e.p1) +
-                                                                             length(e.p2 - e.p0))) / 3.0;
-    return sum;
-}
-
-FitOptions fit_options(const Chain& chain, double tolerance) {
-    FitOptions options;
-    options.tolerance = tolerance;
-    options.closed = chain.closed;
-    options.period = chain.winding;
-    options.corner_reach = chain.kind == ChainKind::step ? 1.2 : std::max(1.0, chain.half_width);
-    options.pin_start = chain.start_tie != EndTie::free;
-    options.pin_end = chain.end_tie != EndTie::free;
-    return options;
-}
-
-// Whether every control point stays near the points that the curve was fitted to.
-bool stays_near(const std::vector<Vec2>& points, const std::vector<Element>& elements, double slack) {
-    Box box;
-    for (const Vec2 p : points) {
-        box.low = {std::min(box.low.x, p.x - slack), std::min(box.low.y, p.y - slack)};
-        box.high = {std::max(box.high.x, p.x + slack), std::max(box.high.y, p.y + slack)};
-    }
-    const auto inside = [&](Vec2 p) {
-        return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
-    };
-    return std::all_of(elements.begin(), elements.end(), [&](const Element& e) {
-        return inside(e.p0) && inside(e.p2) && (e.kind == ElementKind::line || inside(e.p1));
-    });
-}
-
-// Keeps the points that a polyline within the tolerance needs, between two kept ones (Douglas and Peucker 1973).
-void keep_points(const std::vector<Vec2>& points, std::size_t first, std::size_t last, double tolerance,
-                 std::vector<std::uint8_t>& keep) {
-    std::vector<std::pair<std::size_t, std::size_t>> stack{{first, last}};
-    while (!stack.empty()) {
-        const auto [a, b] = stack.back();
-        stack.pop_back();
-        const Vec2 d = points[b] - points[a];
-        double worst = tolerance;
-        std::size_t at = a;
-        for (std::size_t k = a + 1; k < b; ++k) {
-            const Vec2 q = points[k] - points[a];
-            const double s = std::clamp(dot(q, d) / std::max(1e-12, dot(d, d)), 0.0, 1.0);
-            const double distance = length(q - d * s);
-            if (distance > worst) worst = distance, at = k;
-        }
-        if (at == a) continue;
-        keep[at] = 1;
-        stack.push_back({a, at});
-        stack.push_back({at, b});
-    }
-}
-
-// What always works: lines through some of the points.
-std::vector<Element> fit_polyline(const Chain& chain, double tolerance) {
-    std::vector<Vec2> points = chain.points;
-    if (chain.closed) points.push_back(points.front() + chain.winding);
-    std::vector<std::uint8_t> keep(points.size(), 0);
-    keep.front() = keep.back() = 1;
-    keep_points(points, 0, points.size() - 1, tolerance, keep);
-    std::vector<Element> elements;
-    Vec2 start = points.front();
-    for (std::size_t k = 1; k < points.size(); ++k) {
-        if (!keep[k] || length(points[k] - start) == 0.0) continue;
-        elements.push_back({ElementKind::line, start, {}, points[k]});
-        start = points[k];
-    }
-    return elements;
-}
-
-// Texels of the data texture: one a line, two a quadratic.
-std::size_t texels_of(const std::vector<Element>& elements) {
-    std::size_t sum = elements.size();
-    for (const Element& e : elements) sum += e.kind == ElementKind::quadratic;
-    return sum;
-}
-
-std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, double tolerance, int threads) {
-    std::vector<FittedChain> fitted(chains.size());
-    // Curve fitting takes some 20 microseconds a point on ragged rims; where there are very many, corners have to do.
-    constexpr std::size_t kMostCurvePoints = 120000;
-    std::size_t points = 0;
-    for (const Chain& chain : chains) points += chain.points.size();
-    const bool curves = points <= kMostCurvePoints;
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-        for (std::size_t c = next++; c < chains.size(); c = next++) {
-            const Result<FitResult> fit = curves ? fit_curve(chains[c].points, fit_options(chains[c], tolerance))
-                                                 : Result<FitResult>(FitResult{{}, {}, {}, 1e9, 1e9});
-            if (!fit) continue;  // all points coincide: nothing to draw
-            fitted[c].chain = chains[c];
-            const bool sound = fit->max_error < 3.0 * tolerance + 0.5 &&
-                               stays_near(chains[c].points, fit->elements, 2.0 + 2.0 * chains[c].half_width);
-            // Along a ragged rim a smooth chain needs more elements than corners do, and shows no more.
-            const std::vector<Element> polyline = fit_polyline(chains[c], tolerance);
-            const bool smooth = sound && 3 * texels_of(fit->elements) <= 4 * texels_of(polyline);
-            fitted[c].elements = smooth ? fit->elements : polyline;
-            fitted[c].length = chain_length(fitted[c].elements);
-        }
-    };
-    std::vector<std::thread> pool;
-    for (int t = 1; t < threads; ++t) pool.emplace_back(work);
-    work();
-    for (std::thread& thread : pool) thread.join();
-    fitted.erase(std::remove_if(fitted.begin(), fitted.end(), [](const FittedChain& f) { return f.elements.empty(); }),
-                 fitted.end());
-    return fitted;
-}
-
-// Contours of one map never cross; where their fits do, they are fitted again by lines ever closer to the points.
-void untangle_steps(std::vector<FittedChain>& chains, const Lattice& lattice, double tolerance) {
-    for (const double closer : {0.5, 0.15, 0.0}) {
-        const std::vector<std::uint8_t> tangled = find_tangled_steps(chains, lattice);
-        if (std::find(tangled.begin(), tangled.end(), 1) == tangled.end()) return;
-        for (std::size_t c = 0; c < chains.size(); ++c) {
-            if (!tangled[c]) continue;
-            chains[c].elements = fit_polyline(chains[c].chain, closer * tolerance);
-            chains[c].length = chain_length(chains[c].elements);
-        }
-    }
-}
-
 std::size_t count_elements(const std::vector<FittedChain>& chains) {
     std::size_t sum = 0;
     for (const FittedChain& fitted : chains) sum += fitted.elements.size();
@@ -229,16 +101,10 @@ std::vector<FittedChain> join(std::vector<FittedChain> a, std::vector<FittedChai
     return a;
 }
 
-std::size_t count_lines(const std::vector<Chain>& chains, double tolerance) {
-    std::size_t sum = 0;
-    for (const Chain& chain : chains) sum += fit_polyline(chain, tolerance).size();
-    return sum;
-}
-
 // A curve that follows the grain of a ragged edge costs an element every few texels: first the fit is loosened, then
 // the least regions are given up, until the steps leave room for lines.
-std::vector<FittedChain> fit_within(Traced& traced, const VectorizeOptions& options, std::size_t budget,
-                                    Vectorized& result, int threads) {
+std::vector<FittedChain> fit_within(Traced& traced, const Image& map, const VectorizeOptions& options,
+                                    std::size_t budget, Vectorized& result, int threads) {
     const Lattice& lattice = traced.lattice;
     const double energy = traced.energy;
     double share = kLeastRegionShare;
@@ -259,7 +125,8 @@ std::vector<FittedChain> fit_within(Traced& traced, const VectorizeOptions& opti
         traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
         steps = count_lines(traced.steps, result.tolerance);
     }
-    return join(fit_chains(traced.lines, result.tolerance, threads), fit_chains(traced.steps, result.tolerance, threads));
+    return join(fit_chains(traced.lines, map, lattice, result.tolerance, threads),
+                fit_chains(traced.steps, map, lattice, result.tolerance, threads));
 }
 
 // Lines that explain little per element go, the least useful first, until the rest is within the budget. Steps hold the
@@ -420,7 +287,7 @@ Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, 
     result.noise = traced.noise;
     result.energy = traced.energy;
     const std::size_t budget = element_budget(lattice, options);
-    std::vector<FittedChain> fitted = fit_within(traced, options, budget, result, thread_count(options));
+    std::vector<FittedChain> fitted = fit_within(traced, map.image, options, budget, result, thread_count(options));
     untangle_steps(fitted, lattice, result.tolerance);
     if (!proceed(0.6)) return stopped();
     const ProfileSet set = measure_profiles(fitted, map.image, lattice, traced.regions, profile_options(traced));

@@ -1,0 +1,20 @@
+// Curves for traced chains. Part of stage vectorize; lengths in texels.
+#pragma once
+
+#include "vectorize_internal.hpp"
+#include "vectorize_profiles.hpp"
+
+namespace burin::vectorizing {
+
+// Lines and quadratics within the tolerance of the chains' points, or corners alone where these are fewer. The map tells
+// a corner of a wide line from a tight bend. Chains of no extent are left out; the result does not depend on `threads`.
+std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, const Image& map, const Lattice& lattice,
+                                    double tolerance, int threads);
+
+// Contours of one map never cross; where their fits do, they are fitted again by lines ever closer to the points.
+void untangle_steps(std::vector<FittedChain>& chains, const Lattice& lattice, double tolerance);
+
+// How many lines would follow the chains within the tolerance: a fast guess of the number of elements.
+std::size_t count_lines(const std::vector<Chain>& chains, double tolerance);
+
+}  // namespace burin::vectorizing
