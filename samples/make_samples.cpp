@@ -3,7 +3,7 @@
 //     make_samples FOLDER        writes FOLDER/plate.png, 512 x 512, 16 bits
 //
 // The plate has one of everything a pattern is made of: lines, arcs, a mitred zigzag, crossings, T-junctions, isolated
-// ends, and letters as plateaus.
+// ends, and letters as plateaus with holes.
 #include <cstdio>
 #include <numbers>
 #include <string>
@@ -106,7 +106,7 @@ void add_zigzag(Pattern& pattern) {
     pattern.paths.push_back(Pen({0.10, 0.88}).line({0.21, 0.88}).line({0.21, 0.95}).done(kVee));
 }
 
-// Letters run clockwise on screen, so that the plateau lies on the right.
+// Letters run clockwise on screen outside and anticlockwise inside, so that the plateau lies on the right.
 Path polygon(const std::vector<Vec2>& points) {
     Pen pen(points.front());
     for (std::size_t i = 1; i < points.size(); ++i) pen.line(points[i]);
@@ -115,24 +115,36 @@ Path polygon(const std::vector<Vec2>& points) {
 }
 
 void add_letters(Pattern& pattern) {
-    const double top = 0.41, bottom = 0.62, stem = 0.037, half = std::numbers::pi;
+    const double top = 0.41, bottom = 0.62, stem = 0.035, half = std::numbers::pi;
     auto& paths = pattern.paths;
-    const double middle = (top + bottom) / 2;
+    // B: two bowls, two holes.
+    const double middle = (top + bottom) / 2, radius = (bottom - top) / 4, x = 0.14;
+    paths.push_back(Pen({x, top}).line({x + 0.06, top}).arc({x + 0.06, top + radius}, half)
+                        .arc({x + 0.06, bottom - radius}, half).line({x, bottom}).line({x, top}).closed(kLetter));
+    for (double y : {top + radius, bottom - radius}) {
+        const double r = radius - 0.026;
+        paths.push_back(Pen({x + stem, y - r}).line({x + stem, y + r}).line({x + 0.06, y + r})
+                            .arc({x + 0.06, y}, -half).line({x + stem, y - r}).closed(kLetter));
+    }
     // U: one bend outside, one inside.
-    const double u = 0.15, w = 0.13;
+    const double u = 0.29, w = 0.12;
     paths.push_back(Pen({u, top}).line({u + stem, top}).line({u + stem, bottom - w / 2})
                         .arc({u + w / 2, bottom - w / 2}, -half).line({u + w - stem, top}).line({u + w, top})
                         .line({u + w, bottom - w / 2}).arc({u + w / 2, bottom - w / 2}, half).line({u, top})
                         .closed(kLetter));
-    // N, I, T.
-    const double n = 0.35, i = 0.60, t = 0.69;
-    paths.push_back(polygon({{n, top}, {n + stem, top}, {n + 0.143, middle + 0.04}, {n + 0.143, top},
-                             {n + 0.18, top}, {n + 0.18, bottom}, {n + 0.143, bottom}, {n + stem, middle - 0.04},
+    // R: a bowl with a hole, and a leg.
+    const double r = 0.45;
+    paths.push_back(Pen({r, top}).line({r + 0.06, top}).arc({r + 0.06, top + radius}, half)
+                        .line({r + 0.115, bottom}).line({r + 0.078, bottom}).line({r + stem, middle + 0.012})
+                        .line({r + stem, bottom}).line({r, bottom}).line({r, top}).closed(kLetter));
+    paths.push_back(Pen({r + stem, top + 0.026}).line({r + stem, middle - 0.026}).line({r + 0.06, middle - 0.026})
+                        .arc({r + 0.06, top + radius}, -half).line({r + stem, top + 0.026}).closed(kLetter));
+    // I and N.
+    paths.push_back(polygon({{0.605, top}, {0.64, top}, {0.64, bottom}, {0.605, bottom}}));
+    const double n = 0.68;
+    paths.push_back(polygon({{n, top}, {n + stem, top}, {n + 0.145, middle + 0.04}, {n + 0.145, top},
+                             {n + 0.18, top}, {n + 0.18, bottom}, {n + 0.145, bottom}, {n + stem, middle - 0.04},
                              {n + stem, bottom}, {n, bottom}}));
-    paths.push_back(polygon({{i, top}, {i + stem, top}, {i + stem, bottom}, {i, bottom}}));
-    paths.push_back(polygon({{t, top}, {t + 0.16, top}, {t + 0.16, top + stem}, {t + 0.08 + stem / 2, top + stem},
-                             {t + 0.08 + stem / 2, bottom}, {t + 0.08 - stem / 2, bottom},
-                             {t + 0.08 - stem / 2, top + stem}, {t, top + stem}}));
 }
 
 Pattern make_plate() {

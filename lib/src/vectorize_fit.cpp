@@ -53,18 +53,6 @@ bool is_bend(const Element& before, const Element& after, const Chain& chain, co
     return std::fabs(sample(map, lattice, rim) - beside) < 0.5 * std::fabs(line - beside);
 }
 
-Result<FitResult> fit_curves(const Chain& chain, const Image& map, const Lattice& lattice, double tolerance) {
-    FitOptions options = fit_options(chain, tolerance);
-    Result<FitResult> fit = fit_curve(chain.points, options);
-    if (!fit || chain.kind == ChainKind::step || chain.half_width < 2.0) return fit;
-    for (std::size_t i = 1; i < fit->elements.size(); ++i) {
-        if (!fit->corner[i] || !is_bend(fit->elements[i - 1], fit->elements[i], chain, map, lattice)) continue;
-        options.corner_reach = 1.2;
-        return fit_curve(chain.points, options);
-    }
-    return fit;
-}
-
 // Whether every control point stays near the points that the curve was fitted to; that of a round bend lies outside of
 // their box by up to half the bend's chord.
 bool stays_near(const std::vector<Vec2>& points, const std::vector<Element>& elements, double slack) {
@@ -127,6 +115,24 @@ std::size_t texels_of(const std::vector<Element>& elements) {
     std::size_t sum = elements.size();
     for (const Element& e : elements) sum += e.kind == ElementKind::quadratic;
     return sum;
+}
+
+Result<FitResult> fit_curves(const Chain& chain, const Image& map, const Lattice& lattice, double tolerance) {
+    FitOptions options = fit_options(chain, tolerance);
+    Result<FitResult> fit = fit_curve(chain.points, options);
+    if (!fit || chain.kind == ChainKind::step || chain.half_width < 2.0) return fit;
+    bool any_corner = false, any_bend = false;
+    for (std::size_t i = 1; i < fit->elements.size(); ++i) {
+        if (!fit->corner[i]) continue;
+        any_corner = true;
+        any_bend |= is_bend(fit->elements[i - 1], fit->elements[i], chain, map, lattice);
+    }
+    if (!any_corner) return fit;
+    options.corner_reach = 1.2;
+    Result<FitResult> bent = fit_curve(chain.points, options);
+    if (!bent) return fit;
+    // What a curve describes about as shortly is a curve.
+    return any_bend || texels_of(bent->elements) <= texels_of(fit->elements) + 1 ? bent : fit;
 }
 
 }  // namespace
