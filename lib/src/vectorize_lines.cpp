@@ -389,8 +389,10 @@ bool crosses_unknown(const Chain& chain, Vec2 p, Vec2 normal, const Image& respo
 }
 
 // Fills the lines' texels to the height of the ground beside them, which is what the closing (opening) holds.
-void erase_lines(Image& map, const Image& response, const Lattice& lattice, const std::vector<Chain>& chains,
-                 const std::vector<std::int32_t>& owner, ChainKind kind) {
+// Returns 1 for the texels that were filled.
+std::vector<std::uint8_t> erase_lines(Image& map, const Image& response, const Lattice& lattice,
+                                      const std::vector<Chain>& chains, const std::vector<std::int32_t>& owner,
+                                      ChainKind kind) {
     std::vector<std::uint8_t> erased(map.texels.size(), 0);
     const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
     for (const Chain& chain : chains) {
@@ -406,15 +408,27 @@ void erase_lines(Image& map, const Image& response, const Lattice& lattice, cons
             });
         });
     }
+    return erased;
 }
 
-// Fills what is left of the texels that several chains claim.
-void erase_crossings(Image& map, const Lattice& lattice, const std::vector<std::int32_t>& owner, ChainKind kind,
-                     int radius) {
-    const Image response = hat_response(map, lattice, kind, radius);
+// Where two thin lines cross, a small square may find no level ground: what is left there of the filled texels is filled by
+// a large one.
+void erase_crossings(Image& map, const Lattice& lattice, const std::vector<std::int32_t>& owner,
+                     const std::vector<std::uint8_t>& erased, ChainKind kind, const LineScale& scale) {
+    Image crossing(map.width, map.height);
+    bool any = false;
+    for (std::size_t i = 0; i < owner.size(); ++i)
+        if (owner[i] == kSeveral) crossing.texels[i] = 1.0f, any = true;
+    if (!any) return;
+    const int near = 2 * square_radius(scale.radius);
+    const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {2 * near + 1, 2 * near + 1});
+    cv::Mat around;
+    cv::dilate(padded(crossing, lattice, near), around, square);
+    crossing = cropped(around, lattice, near);
+    const Image response = hat_response(map, lattice, kind, square_radius(scale.widest));
     const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
     for (std::size_t i = 0; i < owner.size(); ++i)
-        if (owner[i] == kSeveral) map.texels[i] += sign * response.texels[i];
+        if (erased[i] && crossing.texels[i] > 0.0f) map.texels[i] += sign * response.texels[i];
 }
 
 }  // namespace
@@ -446,9 +460,8 @@ std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& l
     std::vector<Chain> chains = keep_lines(all, map, lattice, noise, 2e-5 * energy, scale);
     drop_partial_shapes(chains, all, part, lattice);
     const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
-    erase_lines(map, response, lattice, chains, owner, kind);
-    // Where two thin lines cross, a small square does not reach the ground.
-    if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, kind, square_radius(scale.widest));
+    const std::vector<std::uint8_t> erased = erase_lines(map, response, lattice, chains, owner, kind);
+    if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, erased, kind, scale);
     return chains;
 }
 
