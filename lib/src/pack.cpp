@@ -261,13 +261,19 @@ Packer::Failure Packer::encode_elements() {
     return {};
 }
 
+// Within 16 steps, a quarter of a texel of an 8192 x 8192 map.
+bool is_near(const PointCode& a, const PointCode& b) {
+    const auto apart = [](std::uint32_t p, std::uint32_t q) { return p > q ? p - q : q - p; };
+    return apart(a.u, b.u) <= 16 && apart(a.v, b.v) <= 16;
+}
+
 Packer::Failure Packer::encode_element(std::size_t index) {
     const ResolvedElement& e = pattern_.elements[index];
     ElementCode code;
     if (Failure error = encode_points(index, code)) return error;
     if (code.p0 == code.p2) {
-        // A quadratic may come back to where it began, but not when it has gone nowhere in between.
-        if (code.quadratic && code.p1 != code.p0) {
+        // Of a quadratic that comes back to where it began only what goes some way in between is an error.
+        if (code.quadratic && !is_near(code.p1, code.p0)) {
             return invalid("element " + text(index) + " at " + place_text(e.element.p0) +
                            " begins and ends at the same place");
         }

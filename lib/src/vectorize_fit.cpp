@@ -32,6 +32,22 @@ FitOptions fit_options(const Chain& chain, double tolerance) {
     return options;
 }
 
+// An element that ends where it began, a texel's fraction apart, shows nothing: its neighbour starts where it did.
+void drop_knots(std::vector<Element>& elements) {
+    constexpr double kShortest = 0.02;
+    for (std::size_t i = 0; i + 1 < elements.size();) {
+        if (length(elements[i].p2 - elements[i].p0) >= kShortest) {
+            ++i;
+            continue;
+        }
+        elements[i + 1].p0 = elements[i].p0;
+        elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    if (elements.size() < 2 || length(elements.back().p2 - elements.back().p0) >= kShortest) return;
+    elements[elements.size() - 2].p2 = elements.back().p2;
+    elements.pop_back();
+}
+
 double distance_to_points(Vec2 p, const std::vector<Vec2>& points) {
     double nearest = 1e300;
     for (const Vec2 q : points) nearest = std::min(nearest, length(q - p));
@@ -158,6 +174,7 @@ std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, const Imag
             const std::vector<Element> polyline = fit_polyline(chains[c], tolerance);
             const bool smooth = sound && 3 * texels_of(fit->elements) <= 4 * texels_of(polyline);
             fitted[c].elements = smooth ? fit->elements : polyline;
+            drop_knots(fitted[c].elements);
             fitted[c].length = chain_length(fitted[c].elements);
         }
     };

@@ -253,6 +253,22 @@ TEST(Pack, ShortLinesAreCountedAndLeftOut) {
     EXPECT_EQ(unpack_cell(cell_texel(*packed, 3)).count, 0u);
 }
 
+TEST(Pack, ShortQuadraticsAreCountedAndLeftOut) {
+    Made made = make_pattern();
+    ResolvedPattern& p = made.pattern;
+    Element& e = p.elements[4].element;
+    e.kind = ElementKind::quadratic;
+    e.p0 = {e.p2.x - 1e-8, e.p2.y};
+    e.p1 = {e.p2.x - 2e-6, e.p2.y + 2e-6};
+    PackStatistics statistics;
+    const Result<PackedTextures> packed = pack_textures(p, made.grid, {}, &statistics);
+    ASSERT_TRUE(packed.ok()) << packed.error().message;
+    EXPECT_EQ(statistics.dropped_elements, 1u);
+    // One that goes out and back by a visible way is an error.
+    e.p1 = {e.p2.x - 0.01, e.p2.y + 0.01};
+    EXPECT_FALSE(pack_textures(p, made.grid).ok());
+}
+
 TEST(Pack, MergedProfilePointsKeepTheirFacets) {
     Made made = make_pattern();
     ResolvedProfile& groove = made.pattern.profiles[1];
