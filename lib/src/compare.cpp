@@ -254,7 +254,11 @@ Comparison compare_heights(const Image& reconstruction, const Image& input, Wrap
     // 1e-14: what rounding leaves of a constant map; a map with one texel changed by 1/65535 has more up to
     // 100 Mtexel.
     constexpr double kNothing = 1e-14;
-    if (out.input_variance > kNothing) {
+    const auto [low, high] = std::minmax_element(reconstruction.texels.begin(), reconstruction.texels.end());
+    const bool constant = *low == *high;  // explains nothing, but for rounding
+    if (out.input_variance > kNothing && constant) {
+        out.explained = 0.0;
+    } else if (out.input_variance > kNothing) {
         out.explained = 1.0 - out.error_variance / out.input_variance;
     } else {
         out.explained = out.error_variance > kNothing || out.rms > 1e-7 ? 0.0 : 1.0;

@@ -23,7 +23,8 @@ struct Comparison {
 
     // 1 - var(HP(input - reconstruction)) / var(HP(input)); 1 is perfect, 0 as good as a flat plane, below 0
     // worse. HP subtracts a Gaussian of sigma = shorter side / 16 texels, so that soft ground neither helps
-    // nor hurts. 1 for a constant input reproduced exactly, and 0 for a constant input that is not.
+    // nor hurts. Exactly 0 for a constant reconstruction of a map that has detail. 1 for a constant input
+    // reproduced exactly, and 0 for a constant input that is not.
     double explained = 0.0;
 
     double input_variance = 0.0;  // var(HP(input)): what there is to explain
