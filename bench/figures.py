@@ -25,8 +25,8 @@ MAPS = [
     "pk01_wall03_h_CONSTANT.png", "vulkan_terrain_heightmap_r16_16bit.png",
 ]
 HEAD = ["map", "texels", "paths", "lines + quadratics", "profiles", "explained", "texels per element",
-        "texture bytes (grid + data)", "of raw 8 bit", "file", "RMS %", "p99.9 %", "shader RMS %", "seconds",
-        "findings: burin / official", "path-like"]
+        "texture bytes (grid + data)", "of raw 8 bit", "file", "RMS %", "p99.9 %", "edge RMS texels (lost)",
+        "shader RMS %", "seconds", "findings: burin / official", "path-like"]
 
 
 def run_json(words, allowed=(0,)):
@@ -42,6 +42,11 @@ def draw(burin, asset, folder, name):
     for view, words in views.items():
         path = os.path.join(folder, f"{name}_{view}.png")
         subprocess.run([burin, "render", asset, "-o", path, "-q"] + words, check=True)
+
+
+def edge_text(edges):
+    """RMS over the edges found, and the share that is farther than two texels."""
+    return f"{edges['rms_found']:.3f} ({100 * edges['lost']:.1f} %)" if edges["length"] else "no edges"
 
 
 def row_of(arguments, name, folder):
@@ -60,8 +65,8 @@ def row_of(arguments, name, folder):
     return [os.path.splitext(name)[0], f"{width}x{height}", stats["paths"], f"{lines} + {quadratics}",
             stats["profiles"], f"{figures['explained']:.4f}", f"{per_element:.1f}",
             f"{grid + data} ({grid} + {data})", f"1/{width * height / (grid + data):.1f}", stats["bytes"]["file"],
-            f"{100 * figures['rms']:.3f}", f"{100 * figures['p999']:.2f}", f"{100 * shader['rms']:.3f}",
-            f"{sum(stats['seconds'].values()):.1f}",
+            f"{100 * figures['rms']:.3f}", f"{100 * figures['p999']:.2f}", edge_text(figures["edges"]),
+            f"{100 * shader['rms']:.3f}", f"{sum(stats['seconds'].values()):.1f}",
             f"{found['errors']} / {official['issues']['numErrors'] if official else 'absent'}",
             "yes" if stats["path_like"] else "no"]
 

@@ -1,5 +1,4 @@
 // burin check: the height figures of an asset against the map it was made from. 1 when above --max-rms.
-#include <cmath>
 #include <string>
 
 #include <burin/compare.hpp>
@@ -33,18 +32,34 @@ Result<Image> reconstruct(const Arguments& arguments, const Asset& asset, std::s
     return rasterize_height(unpacked->pattern, map.width, map.height, options);
 }
 
-void add_figures(Report& report, const Comparison& figures) {
+void add_heights(Report& report, const Comparison& figures) {
     const auto share = [&](const char* key, const char* label, double value) {
         report.add({key, label, value, percent_text(value, 3) + " of range"});
     };
     report.add({"explained", "explained", figures.explained, number_text(figures.explained)});
     share("rms", "RMS error", figures.rms);
-    share("rms_without_smooth", "  smooth removed", std::sqrt(figures.error_variance));
+    share("rms_without_smooth", "  smooth removed", figures.rms_without_smooth);
     share("p999", "99.9th percentile", figures.p999);
+    share("p999_without_smooth", "  smooth removed", figures.p999_without_smooth);
     share("max", "largest error", figures.max);
     share("mean_error", "mean error", figures.mean_error);
     report.add_group("worst_texel", "worst texel",
                      {{"x", "x", std::int64_t{figures.worst_x}, ""}, {"y", "y", std::int64_t{figures.worst_y}, ""}});
+}
+
+void add_edges(Report& report, const EdgeError& edges) {
+    const bool any = edges.length > 0.0;
+    // A field without label is for JSON alone.
+    const auto field = [&](const char* key, const char* label, double value, const std::string& shown) {
+        return Field{key, any ? label : "", value, shown};
+    };
+    const auto texels = [](double value) { return number_text(value) + " texels"; };
+    report.add_group("edges", "edge position",
+                     {field("rms", "RMS", edges.rms, texels(edges.rms)),
+                      field("rms_found", "without lost", edges.rms_found, texels(edges.rms_found)),
+                      field("p999", "99.9th percentile", edges.p999, texels(edges.p999)),
+                      field("lost", "lost", edges.lost, percent_text(edges.lost)),
+                      Field{"length", any ? "of" : "no strong edges,", edges.length, texels(edges.length)}});
 }
 
 }  // namespace
@@ -60,8 +75,8 @@ ExitCode run_check(const Arguments& arguments) {
     if (!heights) return fail(arguments, code_for_input(heights.error()), heights.error().message);
 
     const PathDetail& detail = file->asset.materials[*material].detail;
-    const Comparison figures =
-        compare_heights(*heights, map->image, detail.repeat ? Wrap::repeat : Wrap::clamp);
+    const Wrap wrap = detail.repeat ? Wrap::repeat : Wrap::clamp;
+    const Comparison figures = compare_heights(*heights, map->image, wrap);
     // Percent of range on the command line, a share in the library.
     const bool bounded = arguments.given("--max-rms");
     const bool passed = !bounded || figures.rms * 100.0 <= arguments.number("--max-rms");
@@ -72,7 +87,8 @@ ExitCode run_check(const Arguments& arguments) {
     report.add_group("texels", "texels",
                      {{"width", "width", std::int64_t{map->image.width}, ""},
                       {"height", "height", std::int64_t{map->image.height}, ""}});
-    add_figures(report, figures);
+    add_heights(report, figures);
+    add_edges(report, compare_edges(*heights, map->image, wrap));
     if (bounded) report.add({"passed", "within --max-rms", passed, ""});
     report.print(arguments);
     return passed ? ExitCode::done : ExitCode::no;

@@ -179,9 +179,11 @@ void WideBlur::row(int y, std::vector<double>& out) const {
     }
 }
 
-// Variance of a map less its wide Gaussian.
+// Variance of a map less its wide Gaussian; the absolute values of that difference go to `absolute`, if
+// given.
 template <typename Texel>
-double high_pass_variance(int width, int height, Wrap wrap, const Texel& texel) {
+double high_pass_variance(int width, int height, Wrap wrap, const Texel& texel,
+                          std::vector<float>* absolute = nullptr) {
     const WideBlur blur(width, height, wrap, texel);
     std::vector<double> smooth;
     double sum = 0.0, squares = 0.0;
@@ -192,12 +194,21 @@ double high_pass_variance(int width, int height, Wrap wrap, const Texel& texel) 
             const double v = texel(x, y) - smooth[static_cast<std::size_t>(x)];
             row_sum += v;
             row_squares += v * v;
+            if (absolute) absolute->push_back(static_cast<float>(std::abs(v)));
         }
         sum += row_sum;
         squares += row_squares;
     }
     const double n = static_cast<double>(width) * height;
     return std::max(0.0, squares / n - (sum / n) * (sum / n));
+}
+
+// At most 1 in 1000 is greater. Reorders the values.
+double p999_of(std::vector<float>& values) {
+    const std::size_t n = values.size();
+    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n - 1 - n / 1000);
+    std::nth_element(values.begin(), nth, values.end());
+    return static_cast<double>(*nth);
 }
 
 // The errors themselves; their 99.9th percentile needs them side by side.
@@ -220,9 +231,7 @@ void point_figures(const Image& a, const Image& b, Comparison& out) {
     out.rms = std::sqrt(squares / static_cast<double>(n));
     out.worst_x = static_cast<int>(worst % static_cast<std::size_t>(a.width));
     out.worst_y = static_cast<int>(worst / static_cast<std::size_t>(a.width));
-    const auto nth = absolute.begin() + static_cast<std::ptrdiff_t>(n - 1 - n / 1000);
-    std::nth_element(absolute.begin(), nth, absolute.end());
-    out.p999 = static_cast<double>(*nth);
+    out.p999 = p999_of(absolute);
 }
 
 }  // namespace
@@ -237,11 +246,19 @@ Comparison compare_heights(const Image& reconstruction, const Image& input, Wrap
         return static_cast<double>(input.at(x, y)) - static_cast<double>(reconstruction.at(x, y));
     };
     out.input_variance = high_pass_variance(input.width, input.height, wrap, value);
-    out.error_variance = high_pass_variance(input.width, input.height, wrap, error);
+    std::vector<float> absolute;
+    absolute.reserve(input.texels.size());
+    out.error_variance = high_pass_variance(input.width, input.height, wrap, error, &absolute);
+    out.rms_without_smooth = std::sqrt(out.error_variance);
+    out.p999_without_smooth = p999_of(absolute);
     // 1e-14: what rounding leaves of a constant map; a map with one texel changed by 1/65535 has more up to
     // 100 Mtexel.
     constexpr double kNothing = 1e-14;
-    if (out.input_variance > kNothing) {
+    const auto [low, high] = std::minmax_element(reconstruction.texels.begin(), reconstruction.texels.end());
+    const bool constant = *low == *high;  // explains nothing, but for rounding
+    if (out.input_variance > kNothing && constant) {
+        out.explained = 0.0;
+    } else if (out.input_variance > kNothing) {
         out.explained = 1.0 - out.error_variance / out.input_variance;
     } else {
         out.explained = out.error_variance > kNothing || out.rms > 1e-7 ? 0.0 : 1.0;

@@ -6,13 +6,12 @@
 #include <optional>
 
 #include <burin/compare.hpp>
-#include <burin/fit.hpp>
 #include <burin/rasterize.hpp>
+
+#include "resolve_curve.hpp"
 
 namespace burin {
 namespace {
-
-constexpr int kLengthSteps = 16;  // chords per quadratic: its length within 1 in 1000
 
 // Tells the user which stage runs and sums up the time of each.
 class StageClock {
@@ -49,20 +48,12 @@ class StageClock {
 
 Error stopped() { return {ErrorCode::invalid_argument, "stopped on request"}; }
 
-double length_of(const Element& element) {
-    if (element.kind == ElementKind::line) return length(element.p2 - element.p0);
-    double sum = 0.0;
-    for (int i = 0; i < kLengthSteps; ++i)
-        sum += length(point_at(element, (i + 1.0) / kLengthSteps) - point_at(element, double(i) / kLengthSteps));
-    return sum;
-}
-
 void count_elements(const ResolvedPattern& pattern, double texels_per_metre, ConvertStats& stats) {
     std::vector<std::uint32_t> paths;
     for (const ResolvedElement& element : pattern.elements) {
         const bool line = element.element.kind == ElementKind::line;
         (line ? stats.lines : stats.quadratics) += 1;
-        stats.path_length_texels += length_of(element.element) * texels_per_metre;
+        stats.path_length_texels += curve::arc_length(element.element) * texels_per_metre;
         paths.push_back(element.path);
     }
     std::sort(paths.begin(), paths.end());
@@ -190,7 +181,7 @@ bool can_afford_refinement(const Pattern& pattern, const Image& map) {
     for (const Path& path : pattern.paths) {
         const std::vector<ProfilePoint>& points = pattern.profiles[path.profile].points;
         const double reach = (points.back().b - points.front().b) * texels + 2.0;
-        for (const Element& element : path.elements) work += length_of(element) * texels * reach;
+        for (const Element& element : path.elements) work += curve::arc_length(element) * texels * reach;
     }
     return work <= kMostTexels;
 }

@@ -12,10 +12,7 @@
 namespace burin {
 namespace {
 
-using truth::Foot;
-using truth::Form;
-using truth::FormKind;
-using truth::Local;
+using namespace truth;
 using Prepared = Truth::Prepared;
 
 constexpr int kSamples = 32;       // per smooth piece of a curved element; between them roots are polished

@@ -1,15 +1,19 @@
 // The document with the pattern, as one glb.
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include <burin/image_io.hpp>
 
 #include "gltf_geometry.hpp"
+#include "gltf_places.hpp"
 
 namespace burin {
 namespace {
 
 constexpr const char* kReplacedNormalTexture = "burin_replaced_normal_texture";
+constexpr const char* kNormalName = "path detail, normals";
+constexpr const char* kOcclusionName = "path detail, occlusion";
 // Views start on multiples of four bytes as glTF asks; the textures on sixteen, so that a mapped file can be
 // uploaded as it lies.
 constexpr std::size_t kAlignment = 4, kTextureAlignment = 16;
@@ -19,17 +23,10 @@ void append_word(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-// Appends to a list of the document, which it makes when there is none; returns the place.
-std::size_t append_to(Json& document, const char* key, Json item) {
-    Json& list = document[key];
-    if (!list.is_array()) list = Json::array();
-    list.push_back(std::move(item));
-    return list.size() - 1;
-}
-
 class GlbWriter {
   public:
-    explicit GlbWriter(const ModelData& model) : model_(model), document_(model.document) {}
+    explicit GlbWriter(const ModelData& model)
+        : model_(model), document_(model.document), places_(document_) {}
 
     // All buffers one after the other, so that the first one, the binary chunk, holds everything.
     void merge_buffers() {
@@ -77,18 +74,31 @@ class GlbWriter {
     Result<std::size_t> add_texture(const RgbaImage& image, const char* name, std::size_t sampler) {
         Result<std::vector<std::uint8_t>> png = encode_png(image);
         if (!png.ok()) return png.error();
-        const std::size_t source = append_to(
-            document_, "images",
-            {{"bufferView", add_view(*png, kAlignment)}, {"mimeType", "image/png"}, {"name", name}});
-        return append_to(document_, "textures", {{"source", source}, {"sampler", sampler}, {"name", name}});
+        // In this order a texture that is replaced gives its image and view to the new one.
+        const std::size_t texture = places_.take("textures"), source = places_.take("images");
+        const std::size_t view = add_view(*png, kAlignment);
+        document_["images"][source] = {{"bufferView", view}, {"mimeType", "image/png"}, {"name", name}};
+        document_["textures"][texture] = {{"source", source}, {"sampler", sampler}, {"name", name}};
+        return texture;
     }
 
+    // One like it may be there already, and not be about to go.
     std::size_t add_sampler(bool repeat) {
         const int wrap = repeat ? kRepeat : kClampToEdge;
-        return append_to(
-            document_, "samplers",
-            {{"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}, {"wrapS", wrap}, {"wrapT", wrap}});
+        const Json sampler{
+            {"magFilter", kLinear}, {"minFilter", kLinearMipmapLinear}, {"wrapS", wrap}, {"wrapT", wrap}};
+        const Json& samplers = array_of(document_, "samplers");
+        const auto same = std::find(samplers.begin(), samplers.end(), sampler);
+        if (same != samplers.end() && !places_.has_released("samplers"))
+            return static_cast<std::size_t>(same - samplers.begin());
+        const std::size_t index = places_.take("samplers");
+        document_["samplers"][index] = sampler;
+        return index;
     }
+
+    // Takes the pattern and its fallback off a material; what they occupied is used again, or left out of the
+    // file.
+    void detach(std::size_t index);
 
     // Triangles without a material get one of their own when the pattern goes onto glTF's default.
     Json& material(std::size_t index, const std::string& name) {
@@ -111,7 +121,9 @@ class GlbWriter {
     }
 
     Result<std::vector<std::uint8_t>> finish() {
+        places_.trim();
         if (binary_.empty()) return assemble({});
+        cut_bytes(binary_, document_["bufferViews"], places_.dropped());
         document_["buffers"][0]["byteLength"] = binary_.size();
         pad(kAlignment);
         return assemble(binary_);
@@ -128,8 +140,9 @@ class GlbWriter {
         binary_.insert(binary_.end(), bytes.begin(), bytes.end());
         if (!document_.contains("buffers") || document_["buffers"].empty())
             document_["buffers"] = Json::array({Json::object()});
-        return append_to(document_, "bufferViews",
-                         {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size()}});
+        const std::size_t view = places_.take("bufferViews");
+        document_["bufferViews"][view] = {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size()}};
+        return view;
     }
 
     // One buffer remains; names and extras of the others move under its extras.
@@ -173,18 +186,58 @@ class GlbWriter {
         return bytes;
     }
 
+    // Takes our texture off the material, if it is ours; returns its place to be released.
+    std::optional<std::uint64_t> take_off(Json& material, const char* slot, const char* name);
+
     const ModelData& model_;
     Json document_;
+    Places places_;  // of document_
     std::vector<std::uint8_t> binary_;
 };
 
+std::optional<std::uint64_t> GlbWriter::take_off(Json& material, const char* slot, const char* name) {
+    const Json* info = find_member(material, slot);
+    const Json& textures = array_of(document_, "textures");
+    const std::uint64_t texture = info ? unsigned_or(*info, "index", textures.size()) : textures.size();
+    if (texture >= textures.size() || text_or(textures[texture], "name", "") != name) return std::nullopt;
+    material.erase(slot);
+    return texture;
+}
+
+// The normal texture that the model had before comes back from the extras.
+void restore_normal_texture(Json& material, std::size_t texture_count) {
+    if (!material.contains("extras") || !material["extras"].is_object()) return;
+    Json& extras = material["extras"];
+    const Json* replaced = find_member(extras, kReplacedNormalTexture);
+    if (replaced == nullptr || unsigned_or(*replaced, "index", texture_count) >= texture_count) return;
+    material["normalTexture"] = *replaced;
+    extras.erase(kReplacedNormalTexture);
+    if (extras.empty()) material.erase("extras");
+}
+
+void GlbWriter::detach(std::size_t index) {
+    if (index >= array_of(document_, "materials").size()) return;
+    Json& material = document_["materials"][index];
+    const std::string extension_name(kPathDetailExtension);
+    const Json* extensions = find_member(material, "extensions");
+    const Json* found = extensions ? find_member(*extensions, extension_name.c_str()) : nullptr;
+    if (found == nullptr) return;
+    const Json extension = *found;
+    material["extensions"].erase(extension_name);
+    const auto normal = take_off(material, "normalTexture", kNormalName);
+    const auto occlusion = take_off(material, "occlusionTexture", kOcclusionName);
+    if (normal) restore_normal_texture(material, array_of(document_, "textures").size());
+    for (const auto& texture : {normal, occlusion})
+        if (texture) places_.release("textures", *texture);
+    constexpr std::uint64_t kNone = ~std::uint64_t{0};
+    for (const char* key : {"grid", "data"})
+        if (const Json* texture = find_member(extension, key))
+            places_.release("bufferViews", unsigned_or(*texture, "bufferView", kNone));
+}
+
 // Puts the fallback's normal map into the core material and keeps what stood there under the extras.
 void set_normal_texture(Json& material, std::size_t texture, int tex_coord) {
-    // Attaching a second time must not take the first fallback for the model's own.
-    const bool own = material.contains("normalTexture") &&
-                     (!material.contains("extensions") ||
-                      !material["extensions"].contains(std::string(kPathDetailExtension)));
-    if (own) {
+    if (material.contains("normalTexture")) {
         Json& extras = material["extras"];
         if (!extras.is_null() && !extras.is_object()) extras = {{"value", extras}};
         extras[kReplacedNormalTexture] = material["normalTexture"];
@@ -196,11 +249,11 @@ void set_normal_texture(Json& material, std::size_t texture, int tex_coord) {
 Status add_fallback(GlbWriter& writer, Json& material, const Fallback& fallback, const PathDetail& detail) {
     if (fallback.normal.width == 0) return Done{};
     const std::size_t sampler = writer.add_sampler(detail.repeat);
-    Result<std::size_t> normal = writer.add_texture(fallback.normal, "path detail, normals", sampler);
+    Result<std::size_t> normal = writer.add_texture(fallback.normal, kNormalName, sampler);
     if (!normal.ok()) return normal.error();
     set_normal_texture(material, *normal, detail.tex_coord);
     if (fallback.occlusion.width == 0 || material.contains("occlusionTexture")) return Done{};
-    Result<std::size_t> occlusion = writer.add_texture(fallback.occlusion, "path detail, occlusion", sampler);
+    Result<std::size_t> occlusion = writer.add_texture(fallback.occlusion, kOcclusionName, sampler);
     if (!occlusion.ok()) return occlusion.error();
     material["occlusionTexture"] = {{"index", *occlusion}};
     if (detail.tex_coord != 0) material["occlusionTexture"]["texCoord"] = detail.tex_coord;
@@ -218,6 +271,7 @@ Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedText
     if (!target.ok()) return target.error();
     GlbWriter writer(model.data());
     writer.merge_buffers();
+    writer.detach(target->index);
     writer.embed_images();
     PathDetail described = detail;
     described.tex_coord = options.tex_coord;

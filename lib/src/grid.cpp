@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -150,6 +151,24 @@ Fullest fullest_cell(const std::vector<std::vector<Hit>>& hits, std::size_t cell
     return fullest;
 }
 
+// The lists at one cell size, and what they come to.
+struct Trial {
+    Frame frame;
+    std::vector<std::vector<Hit>> hits;
+    Fullest fullest;
+    std::size_t bytes = 0;  // as grid_bytes
+    bool fits() const { return fullest.count <= BURIN_MAX_REFS_PER_CELL; }
+};
+
+Trial try_frame(const Frame& frame, const Chain& chain, int threads) {
+    Trial trial{frame, find_hits(frame, chain, threads), {}, 0};
+    const std::size_t cells = static_cast<std::size_t>(frame.cols) * static_cast<std::size_t>(frame.rows);
+    trial.fullest = fullest_cell(trial.hits, cells);
+    trial.bytes = 8 * cells;
+    for (const auto& list : trial.hits) trial.bytes += 2 * list.size();
+    return trial;
+}
+
 Error too_full(const Frame& frame, const Fullest& fullest, double fitting) {
     const int cols = frame.cols;
     std::string message = "cell (" + std::to_string(static_cast<int>(fullest.cell) % cols) + "," +
@@ -159,6 +178,28 @@ Error too_full(const Frame& frame, const Fullest& fullest, double fitting) {
     message += fitting > 0.0 ? "cell_size " + count_text(fitting) + " would fit"
                              : "no cell size fits, too many elements act at one place";
     return {ErrorCode::limit_exceeded, message};
+}
+
+// Larger cells until cells and lists keep to the budget, or no larger cell's list fits. The bytes foretold
+// may be too few: they take all places alike.
+void keep_to_budget(std::optional<Trial>& trial, double cell, std::size_t budget,
+                    const std::function<Trial(double)>& try_size) {
+    const Vec2 size = trial->frame.pattern.size;
+    const double largest = std::max(size.x, size.y);
+    constexpr double kLeastStep = 1.05;
+    double most = 2.0;  // less after a step that was too long
+    while (trial->bytes > budget && cell < largest && most >= kLeastStep) {
+        // Bytes fall with the square of the cell's side at most.
+        const double wanted = std::sqrt(static_cast<double>(trial->bytes) / static_cast<double>(budget));
+        const double step = std::clamp(wanted, kLeastStep, most);
+        Trial larger = try_size(cell * step);
+        if (!larger.fits()) {
+            most = std::sqrt(step);
+            continue;
+        }
+        cell *= step;
+        if (larger.bytes < trial->bytes) trial.emplace(std::move(larger));
+    }
 }
 
 }  // namespace
@@ -171,22 +212,25 @@ Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& o
 
     const bool chosen = options.cell_size > 0.0;
     double cell = chosen ? options.cell_size : cheapest_size(pattern, options);
+    const auto try_size = [&](double side) {
+        return try_frame(with_clear_centres(frame_of(pattern, *limits, side, options.margin)), chain,
+                         options.threads);
+    };
+    std::optional<Trial> trial(try_size(cell));
     Fullest refused;
     std::optional<Frame> refused_frame;
     // Smaller cells until every list fits.
-    for (int round = 0; round < 12; ++round, cell *= 0.75) {
-        const Frame frame = with_clear_centres(frame_of(pattern, *limits, cell, options.margin));
-        const auto hits = find_hits(frame, chain, options.threads);
-        const Fullest fullest =
-            fullest_cell(hits, static_cast<std::size_t>(frame.cols) * static_cast<std::size_t>(frame.rows));
-        if (fullest.count <= BURIN_MAX_REFS_PER_CELL) {
-            if (chosen && refused_frame) return too_full(*refused_frame, refused, cell);
-            return fill_cells(frame, chain, hits);
-        }
-        if (!refused_frame) refused = fullest, refused_frame.emplace(frame);
-        if (frame.cols == BURIN_MAX_TEXTURE_SIDE && frame.rows == BURIN_MAX_TEXTURE_SIDE) break;
+    for (int round = 1; !trial->fits(); ++round) {
+        if (!refused_frame) refused = trial->fullest, refused_frame.emplace(trial->frame);
+        const bool finest =
+            trial->frame.cols == BURIN_MAX_TEXTURE_SIDE && trial->frame.rows == BURIN_MAX_TEXTURE_SIDE;
+        if (finest || round == 12) return too_full(*refused_frame, refused, 0.0);
+        cell *= 0.75;
+        trial.emplace(try_size(cell));
     }
-    return too_full(*refused_frame, refused, 0.0);
+    if (chosen && refused_frame) return too_full(*refused_frame, refused, cell);
+    if (!chosen && options.max_bytes > 0) keep_to_budget(trial, cell, options.max_bytes, try_size);
+    return fill_cells(trial->frame, chain, trial->hits);
 }
 
 }  // namespace burin

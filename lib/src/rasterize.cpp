@@ -16,10 +16,7 @@
 namespace burin {
 namespace {
 
-using truth::Foot;
-using truth::Form;
-using truth::FormKind;
-using truth::Local;
+using namespace truth;
 using Prepared = Truth::Prepared;
 
 constexpr int kBucket = 8;  // texels per side; smaller ones cost more to fill than they save

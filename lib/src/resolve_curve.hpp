@@ -1,4 +1,4 @@
-// Lines and quadratic Béziers of the resolve and grid stages: points, tangents, parts, nearest points,
+// Lines and quadratic Béziers of the stages from vectorize to grid: points, tangents, parts, nearest points,
 // flattening. Private to lib. The truth has its own formulas on purpose: it judges what is computed here.
 #pragma once
 

@@ -8,16 +8,14 @@
 
 #include <burin/fit.hpp>
 
+#include "resolve_curve.hpp"
+
 namespace burin::vectorizing {
 namespace {
 
 double chain_length(const std::vector<Element>& elements) {
     double sum = 0.0;
-    for (const Element& e : elements)
-        sum += e.kind == ElementKind::line ? length(e.p2 - e.p0)
-                                           : 0.5 * (length(e.p1 - e.p0) + length(e.p2 - e.p1) + length(e.p2 - e.p0)) +
-                                                 (length(e.p2 - e.p0) - 0.5 * (length(e.p1 - e.p0) + length(e.p2 - e.p1) +
-                                                                             length(e.p2 - e.p0))) / 3.0;
+    for (const Element& e : elements) sum += curve::arc_length(e);
     return sum;
 }
 

@@ -259,16 +259,13 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-Vec2 smoothed(const std::vector<Vec2>& points, std::ptrdiff_t i, std::ptrdiff_t reach, bool loop) {
+Vec2 smoothed(const std::vector<Vec2>& points, std::ptrdiff_t i, std::ptrdiff_t reach) {
     const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(points.size());
     Vec2 sum;
     double weight = 0.0;
     for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
         const std::ptrdiff_t j = i + k;
-        if (j < 0 || j >= n) {
-            if (!loop) continue;
-        }
-        if (loop && (j < 0 || j >= n)) continue;  // loops are opened: their seam is smoothed one-sidedly
+        if (j < 0 || j >= n) continue;  // loops are opened: their seam is smoothed one-sidedly
         sum = sum + points[j];
         weight += 1.0;
     }
@@ -279,7 +276,7 @@ void measure_strand(Strand& strand, const Image& response, const Lattice& lattic
                     const std::vector<SkeletonNode>& nodes, double reach) {
     const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(strand.texels.size());
     std::vector<Vec2> smooth(strand.texels.size());
-    for (std::ptrdiff_t i = 0; i < n; ++i) smooth[i] = smoothed(strand.texels, i, 2, strand.loop);
+    for (std::ptrdiff_t i = 0; i < n; ++i) smooth[i] = smoothed(strand.texels, i, 2);
     std::vector<Section> sections(strand.texels.size());
     std::vector<Vec2> centres(strand.texels.size());
     std::vector<double> widths, peaks;

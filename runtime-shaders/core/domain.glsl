@@ -34,6 +34,23 @@ BurinEnd burin_end(BurinElement e, bool at_start) {
     return end;
 }
 
+// A stretch of the ray that no end cuts yet.
+BurinPiece burin_whole(BurinElement e, float lo, float hi) {
+    BurinPiece piece;
+    piece.lo = lo;
+    piece.hi = hi;
+    piece.lo_wall = vec2(0.0f, 0.0f);
+    piece.hi_wall = vec2(0.0f, 0.0f);
+    piece.kind = BURIN_PIECE_LINEAR;
+    piece.side = 0.0f;
+    piece.anchor = e.p0;
+    piece.gradient = vec2(0.0f, 0.0f);
+    piece.width = 1.0f;
+    piece.height = 1.0f;
+    piece.fixed_scale = true;
+    return piece;
+}
+
 // Keeps where (p - anchor) . gradient >= 0, with an overlap; the gradient has about length 1.
 BurinPiece burin_clip(BurinPiece piece, BurinRay ray, vec2 anchor, vec2 gradient) {
     float rate = dot(gradient, ray.slope);

@@ -45,18 +45,7 @@ BurinSurface burin_surface(BurinHit hit) {
         s.normal = burin_wall_normal(hit.mark.wall, hit.ray.slope);
         return s;
     }
-    BurinPiece piece;
-    piece.lo = hit.t;
-    piece.hi = hit.t;
-    piece.lo_wall = vec2(0.0f, 0.0f);
-    piece.hi_wall = vec2(0.0f, 0.0f);
-    piece.kind = BURIN_PIECE_LINEAR;
-    piece.side = 0.0f;
-    piece.anchor = e.p0;
-    piece.gradient = vec2(0.0f, 0.0f);
-    piece.width = 1.0f;
-    piece.height = 1.0f;
-    piece.fixed_scale = true;
+    BurinPiece piece = burin_whole(e, hit.t, hit.t);
     if (hit.mark.part != BURIN_PART_MAIN)
         piece = burin_part(e, burin_end(e, true), burin_end(e, false), hit.ray, piece, hit.mark.part, hit.mark.side);
     piece = burin_formula(e, piece, hit.mark.part);

@@ -19,6 +19,8 @@
 
 #include <burin/pattern.hpp>
 
+#include "../elements.hpp"
+
 namespace burin::testing {
 
 // splitmix64: small, fast, the same everywhere.
@@ -146,22 +148,6 @@ class PatternMaker {
         return {random_.between(0.2, 0.8) * options_.size.x, random_.between(0.2, 0.8) * options_.size.y};
     }
 
-    static Element line(Vec2 a, Vec2 b) {
-        Element e;
-        e.p0 = a;
-        e.p1 = lerp(a, b, 0.5);
-        e.p2 = b;
-        return e;
-    }
-    static Element arc(Vec2 a, Vec2 control, Vec2 b) {
-        Element e;
-        e.kind = ElementKind::quadratic;
-        e.p0 = a;
-        e.p1 = control;
-        e.p2 = b;
-        return e;
-    }
-
     // Level of the ground at p; nested loops come later in the list and win. Asks the nine images when
     // repeating.
     double level_at(Vec2 p) const {
@@ -229,7 +215,7 @@ class PatternMaker {
     static std::vector<Element> chain(const Points& points) {
         std::vector<Element> elements;
         for (std::size_t i = 0; i + 1 < points.size(); ++i)
-            elements.push_back(line(points[i], points[i + 1]));
+            elements.push_back(make_line(points[i], points[i + 1]));
         return elements;
     }
 
@@ -242,7 +228,7 @@ class PatternMaker {
         for (int i = 0; i < n; ++i) points.push_back(on(phase + i * step, radius));
         points.push_back(points.front());
         for (int i = 0; i < n; ++i)
-            elements.push_back(arc(points[static_cast<std::size_t>(i)], on(phase + (i + 0.5) * step, bulge),
+            elements.push_back(make_arc(points[static_cast<std::size_t>(i)], on(phase + (i + 0.5) * step, bulge),
                                    points[static_cast<std::size_t>(i) + 1]));
         return elements;
     }
@@ -345,7 +331,7 @@ class PatternMaker {
             const Vec2 d = random_.direction() * (random_.between(0.05, 0.15) * unit_);
             const Vec2 shift =
                 random_.direction() * (random_.chance(0.5) ? 0.0 : random_.between(0.0, half_));
-            add_path({line(keep(c + shift - d), keep(c + shift + d * random_.between(0.5, 1.0)))});
+            add_path({make_line(keep(c + shift - d), keep(c + shift + d * random_.between(0.5, 1.0)))});
         }
     }
 
@@ -357,8 +343,8 @@ class PatternMaker {
         const Vec2 e{d.x * std::cos(angle) - d.y * std::sin(angle),
                      d.x * std::sin(angle) + d.y * std::cos(angle)};
         const Vec2 shift = normal_of(unit(d)) * gap;
-        add_path({line(keep(c - d), keep(c + d))});
-        add_path({line(keep(c + shift - e), keep(c + shift + e))});
+        add_path({make_line(keep(c - d), keep(c + d))});
+        add_path({make_line(keep(c + shift - e), keep(c + shift + e))});
     }
 
     // An arc that touches a line in its middle, exactly or nearly.
@@ -368,9 +354,9 @@ class PatternMaker {
         const double r = random_.between(0.04, 0.1) * unit_;
         const double off =
             options_.near_degenerate && random_.chance(0.5) ? random_.between(-1e-3, 1e-3) * unit_ : 0.0;
-        add_path({line(keep(c - t * (2.0 * r)), keep(c + t * (2.0 * r)))});
+        add_path({make_line(keep(c - t * (2.0 * r)), keep(c + t * (2.0 * r)))});
         // The parabola's vertex lies half way between chord and control point.
-        add_path({arc(c - t * r + n * (r + off), c - n * (r - off), c + t * r + n * (r + off))});
+        add_path({make_arc(c - t * r + n * (r + off), c - n * (r - off), c + t * r + n * (r + off))});
     }
 
     // One path ends on another: exactly on it, or off by less than the snap distance.
@@ -379,7 +365,7 @@ class PatternMaker {
         const Vec2 b = keep(a + d);
         const bool bent = options_.quadratics && random_.chance(0.4);
         const Vec2 control = lerp(a, b, 0.5) + normal_of(unit(d)) * (0.05 * unit_);
-        add_path({bent ? arc(a, control, b) : line(a, b)});
+        add_path({bent ? make_arc(a, control, b) : make_line(a, b)});
         const double s = random_.between(0.3, 0.7);
         Vec2 foot = bent ? lerp(lerp(a, control, s), lerp(control, b, s), s) : lerp(a, b, s);
         if (options_.near_degenerate && random_.chance(0.5))
@@ -389,7 +375,7 @@ class PatternMaker {
         const Vec2 away{t.x * std::cos(lean) - t.y * std::sin(lean),
                         t.x * std::sin(lean) + t.y * std::cos(lean)};
         const Vec2 far = keep(foot + away * (random_.between(0.06, 0.12) * unit_));
-        add_path(random_.chance(0.5) ? std::vector{line(foot, far)} : std::vector{line(far, foot)});
+        add_path(random_.chance(0.5) ? std::vector{make_line(foot, far)} : std::vector{make_line(far, foot)});
     }
 
     // A polyline with corners of every sharpness.
@@ -417,9 +403,9 @@ class PatternMaker {
         const double x = places[random_.below(6)] * options_.size.x,
                      y = places[random_.below(6)] * options_.size.y;
         const double low = random_.between(0.0, 0.3), high = random_.between(0.5, 1.0);
-        if (random_.chance(0.5)) add_path({line({x, low * options_.size.y}, {x, high * options_.size.y})});
-        if (random_.chance(0.7)) add_path({line({low * options_.size.x, y}, {high * options_.size.x, y})});
-        if (random_.chance(0.3)) add_path({line({0, 0}, {options_.size.x * 0.5, options_.size.y * 0.5})});
+        if (random_.chance(0.5)) add_path({make_line({x, low * options_.size.y}, {x, high * options_.size.y})});
+        if (random_.chance(0.7)) add_path({make_line({low * options_.size.x, y}, {high * options_.size.x, y})});
+        if (random_.chance(0.3)) add_path({make_line({0, 0}, {options_.size.x * 0.5, options_.size.y * 0.5})});
     }
 
     // All around the tile: closed modulo the tile, or across its border and ending there.
@@ -432,10 +418,10 @@ class PatternMaker {
         const bool transpose = random_.chance(0.5) && options_.size.x == options_.size.y;
         const auto place = [&](Vec2 p) { return transpose ? Vec2{p.y, p.x} : p; };
         if (random_.chance(0.6)) {
-            add_path({line(place(a), place(b)), line(place(b), place(c))}, true);
+            add_path({make_line(place(a), place(b)), make_line(place(b), place(c))}, true);
         } else {
             const Vec2 end = a + Vec2{0.9 * options_.size.x, 0.2 * options_.size.y};
-            add_path({line(place(a), place(lerp(a, end, 0.5))), line(place(lerp(a, end, 0.5)), place(end))});
+            add_path({make_line(place(a), place(lerp(a, end, 0.5))), make_line(place(lerp(a, end, 0.5)), place(end))});
         }
     }
 
@@ -448,7 +434,7 @@ class PatternMaker {
         const Vec2 shift = normal_of(d) * (random_.between(-0.6, 0.6) * loop.radius);
         const Vec2 a = keep(loop.centre + shift - d * (1.4 * loop.radius));
         const Vec2 b = keep(loop.centre + shift + d * (random_.chance(0.5) ? 1.4 : 0.3) * loop.radius);
-        if (length(b - a) > 0.02 * unit_) add_path({line(a, b)});
+        if (length(b - a) > 0.02 * unit_) add_path({make_line(a, b)});
     }
 
     // A groove that ends exactly on a step's path line, from outside or from inside.
@@ -460,7 +446,7 @@ class PatternMaker {
             loop.outline[static_cast<std::size_t>(random_.below(static_cast<int>(loop.outline.size())))];
         const Vec2 out = unit(on - loop.centre);
         const Vec2 other = keep(on + out * (random_.chance(0.5) ? 0.3 : -0.4) * loop.radius);
-        if (length(other - on) > 0.02 * unit_) add_path({line(other, on)});
+        if (length(other - on) > 0.02 * unit_) add_path({make_line(other, on)});
     }
 
     // Three or more ends at one point.
@@ -471,7 +457,7 @@ class PatternMaker {
         for (int i = 0; i < n; ++i) {
             const double a = phase + 2.0 * std::numbers::pi * (i + random_.between(-0.2, 0.2)) / n;
             const Vec2 far = keep(c + Vec2{std::cos(a), std::sin(a)} * (random_.between(0.05, 0.12) * unit_));
-            add_path(random_.chance(0.5) ? std::vector{line(c, far)} : std::vector{line(far, c)});
+            add_path(random_.chance(0.5) ? std::vector{make_line(c, far)} : std::vector{make_line(far, c)});
         }
     }
 
@@ -502,7 +488,7 @@ class PatternMaker {
             const Vec2 control = from + t * leg;
             t = {t.x * std::cos(turn) - t.y * std::sin(turn), t.x * std::sin(turn) + t.y * std::cos(turn)};
             const Vec2 to = control + t * (leg * random_.between(0.5, 1.5));
-            elements.push_back(arc(from, control, to));
+            elements.push_back(make_arc(from, control, to));
             from = to;
         }
         add_path(elements);
@@ -516,8 +502,8 @@ class PatternMaker {
         const double reach = pitch * n;
         for (int i = 0; i < n; ++i) {
             const double s = (i - 0.5 * (n - 1)) * pitch;
-            add_path({line(keep(c + Vec2{-reach, s}), keep(c + Vec2{reach, s}))});
-            add_path({line(keep(c + Vec2{s, -reach}), keep(c + Vec2{s, reach}))});
+            add_path({make_line(keep(c + Vec2{-reach, s}), keep(c + Vec2{reach, s}))});
+            add_path({make_line(keep(c + Vec2{s, -reach}), keep(c + Vec2{s, reach}))});
         }
     }
 
@@ -529,7 +515,7 @@ class PatternMaker {
             const double reach =
                 random_.chance(0.3) ? random_.between(0.2, 2.0) * half_ : random_.between(0.03, 0.1) * unit_;
             const Vec2 b = keep(a + random_.direction() * reach);
-            if (length(b - a) > 0.1 * half_) add_path({line(a, b)});
+            if (length(b - a) > 0.1 * half_) add_path({make_line(a, b)});
         }
     }
 

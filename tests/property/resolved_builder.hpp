@@ -9,24 +9,10 @@
 
 #include <burin/resolve.hpp>
 
+#include "../elements.hpp"
 #include "random_pattern.hpp"
 
 namespace burin::testing {
-
-inline Element make_line(Vec2 a, Vec2 b) {
-    Element e;
-    e.p0 = a;
-    e.p1 = lerp(a, b, 0.5);
-    e.p2 = b;
-    return e;
-}
-
-inline Element make_arc(Vec2 a, Vec2 control, Vec2 b) {
-    Element e = make_line(a, b);
-    e.kind = ElementKind::quadratic;
-    e.p1 = control;
-    return e;
-}
 
 inline double undirected(double angle) {
     const double a = std::fmod(angle, std::numbers::pi);

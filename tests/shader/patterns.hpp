@@ -10,6 +10,8 @@
 
 #include <burin/pattern.hpp>
 
+#include "../elements.hpp"
+
 namespace burin::testing {
 
 inline constexpr double kDepth = 0.02;
@@ -54,24 +56,11 @@ inline Profile cliff(double half, double drop) {
     return {{{-half, 0}, {0, 0}, {0, -drop}, {half, -drop}}, {}};
 }
 
-inline Element line(Vec2 a, Vec2 b) {
-    Element e;
-    e.p0 = a;
-    e.p2 = b;
-    return e;
-}
-inline Element arc(Vec2 a, Vec2 control, Vec2 b) {
-    Element e = line(a, b);
-    e.kind = ElementKind::quadratic;
-    e.p1 = control;
-    return e;
-}
-
 inline Path polyline(const std::vector<Vec2>& points, std::uint32_t profile, bool closed = false) {
     Path path;
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
-        path.elements.push_back(line(points[i], points[i + 1]));
-    if (closed) path.elements.push_back(line(points.back(), points.front()));
+        path.elements.push_back(make_line(points[i], points[i + 1]));
+    if (closed) path.elements.push_back(make_line(points.back(), points.front()));
     path.closed = closed;
     path.profile = profile;
     return path;
@@ -87,7 +76,7 @@ inline Path circle(Vec2 c, double r, std::uint32_t profile, bool reversed = fals
     };
     for (int i = 0; i < n; ++i)
         path.elements.push_back(
-            arc(at(i, r), at(i + 0.5, r / std::cos(step_angle * 0.5)), at((i + 1) % n, r)));
+            make_arc(at(i, r), at(i + 0.5, r / std::cos(step_angle * 0.5)), at((i + 1) % n, r)));
     path.closed = true;
     path.profile = profile;
     return path;
@@ -152,7 +141,7 @@ inline Pattern ends_pattern() {
         for (CapKind cap : {CapKind::hip, CapKind::butt, CapKind::round, CapKind::taper}) {
             p.paths.push_back(with_caps(polyline({{0.15, y}, {0.4, y + 0.01}}, profile), cap));
             Path bent = polyline({{0.0, 0.0}, {1.0, 1.0}}, profile);
-            bent.elements = {arc({0.55, y}, {0.7, y - 0.03}, {0.85, y + 0.02})};
+            bent.elements = {make_arc({0.55, y}, {0.7, y - 0.03}, {0.85, y + 0.02})};
             p.paths.push_back(with_caps(bent, cap));
             y += 0.1;
         }
@@ -165,7 +154,7 @@ inline Pattern curve_pattern() {
     p.paths = {circle({0.3, 0.3}, 0.2, 0), circle({0.7, 0.3}, 0.15, 1, true), circle({0.6, 0.7}, 0.22, 2)};
     Path snake;
     snake.profile = 0;
-    snake.elements = {arc({0.05, 0.9}, {0.15, 0.7}, {0.25, 0.9}), arc({0.25, 0.9}, {0.35, 1.1}, {0.45, 0.9})};
+    snake.elements = {make_arc({0.05, 0.9}, {0.15, 0.7}, {0.25, 0.9}), make_arc({0.25, 0.9}, {0.35, 1.1}, {0.45, 0.9})};
     p.paths.push_back(snake);
     return p;
 }
@@ -213,7 +202,7 @@ inline Pattern scaled_pattern() {
         return path;
     };
     Path bent = polyline({{0, 0}, {1, 1}}, 0);
-    bent.elements = {arc({0.1, 0.7}, {0.4, 0.5}, {0.7, 0.8})};
+    bent.elements = {make_arc({0.1, 0.7}, {0.4, 0.5}, {0.7, 0.8})};
     p.paths = {scaled(polyline({{0.1, 0.1}, {0.9, 0.15}}, 0), 0.3, 1.4, 0.3, 1.3),
                scaled(polyline({{0.9, 0.35}, {0.1, 0.3}}, 1), 1.5, 0.5, 1.0, 0.4),
                scaled(bent, 1.2, 0.4, 0.5, 1.2)};

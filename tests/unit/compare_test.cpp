@@ -124,8 +124,12 @@ TEST(compare_heights, equal_maps_are_explained_entirely) {
 TEST(compare_heights, a_flat_plane_explains_nothing) {
     const Pair pair = make_pair(128, 128, 2);
     const Comparison c = compare_heights(Image(128, 128, 0.3f), pair.input, Wrap::repeat);
-    EXPECT_NEAR(c.explained, 0.0, 1e-9);
     EXPECT_NEAR(c.input_variance, c.error_variance, 1e-12);
+    for (unsigned seed = 0; seed < 8; ++seed)
+        for (const float level : {0.0f, 0.3f, 0.7f, 1.0f})
+            EXPECT_EQ(compare_heights(Image(128, 128, level), make_pair(128, 128, seed).input, Wrap::repeat)
+                          .explained,
+                      0.0);
 }
 
 TEST(compare_heights, a_wrong_level_shows_in_the_mean_and_not_in_explained) {
@@ -159,6 +163,23 @@ TEST(compare_heights, worst_texel_and_percentile) {
     EXPECT_NEAR(c.max, 0.4, 1e-6);
     EXPECT_NEAR(c.p999, 0.2, 1e-6);
     EXPECT_NEAR(c.rms, std::sqrt((2 * 0.16 + 3 * 0.04) / 4000.0), 1e-7);
+}
+
+// A bend of the ground that is missing shows in the errors, and hardly in those without the smooth part; a
+// missing spot shows in both.
+TEST(compare_heights, errors_without_the_smooth_part) {
+    constexpr int n = 200;
+    Image input(n, n), reconstruction(n, n, 0.5f);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            input.at(x, y) = 0.5f + 0.2f * static_cast<float>(std::cos(2.0 * M_PI * x / n));
+    const Comparison bent = compare_heights(reconstruction, input, Wrap::repeat);
+    const double left = 1.0 - std::exp(-2.0 * M_PI * M_PI / 256.0);  // see subtract_smooth below
+    EXPECT_NEAR(bent.p999, 0.2, 1e-3);
+    EXPECT_NEAR(bent.p999_without_smooth, 0.2 * left, 1e-3);
+    EXPECT_NEAR(bent.rms_without_smooth, 0.2 * left / std::sqrt(2.0), 1e-3);
+    for (int k = 0; k < 50; ++k) reconstruction.at(50, 2 * k) += 0.3f;
+    EXPECT_NEAR(compare_heights(reconstruction, input, Wrap::repeat).p999_without_smooth, 0.3, 0.02);
 }
 
 TEST(compare_heights, one_texel) {

@@ -6,6 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
 
 #include <nlohmann/json.hpp>
 // An independent reader of what is written here.
@@ -56,12 +60,33 @@ Json json_of(const Bytes& glb) {
     return Json::parse(glb.begin() + 20, glb.begin() + 20 + size);
 }
 
-Bytes view_bytes(const Bytes& glb, const Json& document, std::size_t view) {
+// Where the binary chunk's content begins.
+std::ptrdiff_t view_begin(const Bytes& glb) {
     std::uint32_t size = 0;
     std::memcpy(&size, glb.data() + 12, 4);
+    return 28 + static_cast<std::ptrdiff_t>(size);
+}
+
+Bytes view_bytes(const Bytes& glb, const Json& document, std::size_t view) {
     const Json& v = document["bufferViews"][view];
-    const auto begin = glb.begin() + 28 + size + v.value("byteOffset", 0);
+    const auto begin = glb.begin() + view_begin(glb) + v.value("byteOffset", 0);
     return {begin, begin + v["byteLength"].get<int>()};
+}
+
+// The same file with another document.
+Bytes with_json(const Bytes& glb, const Json& document) {
+    std::string text = document.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::ptrdiff_t old_size = view_begin(glb) - 28;
+    const auto chunk = static_cast<std::uint32_t>(text.size());
+    Bytes out(20 + text.size());
+    std::memcpy(out.data(), glb.data(), 20);
+    std::memcpy(out.data() + 12, &chunk, 4);
+    std::memcpy(out.data() + 20, text.data(), text.size());
+    out.insert(out.end(), glb.begin() + 20 + old_size, glb.end());
+    const auto total = static_cast<std::uint32_t>(out.size());
+    std::memcpy(out.data() + 8, &total, 4);
+    return out;
 }
 
 Bytes attach(const Model& model, const AttachOptions& options = {},
@@ -207,6 +232,127 @@ TEST(Gltf, AttachingAgainReplacesThePattern) {
     EXPECT_EQ(document["extensionsUsed"].size(), 1u);
     // The first fallback was no normal texture of the model's own.
     EXPECT_FALSE(document["materials"][0].contains("extras"));
+}
+
+// Every view, image, texture and sampler has a use, and views lie in the binary chunk without overlap.
+void expect_no_leftovers(const Bytes& glb) {
+    const Json document = json_of(glb);
+    std::map<std::string, std::set<std::size_t>> used;
+    const std::function<void(const Json&)> look = [&](const Json& json) {
+        if (json.is_object())
+            for (const auto& [key, array] : std::map<std::string, std::string>{{"index", "textures"},
+                                                                               {"source", "images"},
+                                                                               {"sampler", "samplers"},
+                                                                               {"bufferView", "bufferViews"}})
+                if (json.contains(key) && json[key].is_number())
+                    used[array].insert(json[key].get<std::size_t>());
+        if (json.is_structured())
+            for (const Json& item : json) look(item);
+    };
+    look(document);
+    std::size_t bytes = 0;
+    for (const char* array : {"textures", "images", "samplers", "bufferViews"}) {
+        EXPECT_EQ(used[array].size(), document.value(array, Json::array()).size()) << array;
+        if (!used[array].empty()) {
+            EXPECT_LT(*used[array].rbegin(), document[array].size()) << array;
+        }
+    }
+    for (const Json& view : document["bufferViews"])
+        bytes += (view["byteLength"].get<std::size_t>() + 15) / 16 * 16;
+    EXPECT_LE(document["buffers"][0]["byteLength"].get<std::size_t>(), bytes);
+    validate_glb(glb, [](const Issue& issue) {
+        EXPECT_NE(issue.severity, Severity::error)
+            << issue.number << " " << issue.message << " " << issue.pointer;
+    });
+}
+
+Model model_of(const Bytes& bytes) {
+    auto model = read_model_bytes(bytes, "");
+    EXPECT_TRUE(model.ok()) << (model.ok() ? "" : model.error().message);
+    return *model;
+}
+
+TEST(Gltf, AttachingTwiceGivesTheBytesOfAttachingOnce) {
+    const std::string text = rich_document().dump();
+    for (const Model& model : {make_plane({1, 1}), model_of(Bytes(text.begin(), text.end()))}) {
+        const Bytes once = attach(model);
+        PathDetail other = small_detail();
+        other.depth = 0.25;
+        other.repeat = false;
+        const Bytes between = attach(model_of(once), {}, other);
+        expect_no_leftovers(between);
+        EXPECT_EQ(json_of(between)["bufferViews"].size(), json_of(once)["bufferViews"].size());
+        EXPECT_EQ(attach(model_of(between)), once);
+    }
+}
+
+TEST(Gltf, AttachingWithoutFallbackTakesTheOldOneAway) {
+    const std::string text = rich_document().dump();
+    const Model model = model_of(Bytes(text.begin(), text.end()));
+    const auto bare = write_glb(model, small_textures(), small_detail(), Fallback{});
+    const auto replaced = write_glb(model_of(attach(model)), small_textures(), small_detail(), Fallback{});
+    ASSERT_TRUE(bare.ok() && replaced.ok());
+    const Json document = json_of(*replaced);
+    EXPECT_EQ(document["materials"][0]["normalTexture"], rich_document()["materials"][0]["normalTexture"]);
+    EXPECT_FALSE(document["materials"][0].contains("occlusionTexture"));
+    for (const char* array : {"textures", "images", "bufferViews", "buffers"})
+        EXPECT_EQ(document[array], json_of(*bare)[array]) << array;
+    EXPECT_FALSE(document.contains("samplers"));
+}
+
+// Two materials with patterns: replacing the first moves nothing of the second, nor of what refers to its
+// textures.
+TEST(Gltf, ReplacingThePatternOfOneMaterialKeepsTheOthers) {
+    Json two = rich_document();
+    two["meshes"][0]["primitives"].push_back(two["meshes"][0]["primitives"][0]);
+    two["meshes"][0]["primitives"][1]["material"] = 1;
+    two["materials"].push_back({{"name", "cloth"}});
+    const std::string text = two.dump();
+    const Bytes first = attach(model_of(Bytes(text.begin(), text.end())), {.material = "skin"});
+    const Bytes both = attach(model_of(first), {.material = "cloth"});
+    Json shared = json_of(both);
+    PackedTextures larger = small_textures();
+    larger.grid_width = 9;
+    for (int cell = 1; cell < 9; ++cell) larger.grid.insert(larger.grid.end(), {0, 0xffffffffu});
+    PathDetail detail = small_detail();
+    detail.grid_width = 9;
+    const auto again = write_glb(model_of(both), larger, detail, small_fallback(), {.material = "skin"});
+    ASSERT_TRUE(again.ok());
+    expect_no_leftovers(*again);
+    const Json after = json_of(*again);
+    EXPECT_EQ(after["materials"][1], shared["materials"][1]);
+    for (std::size_t i = 0; i < shared["bufferViews"].size(); ++i) {
+        const bool replaced =
+            i ==
+            shared["materials"][0]["extensions"][std::string(kPathDetailExtension)]["grid"]["bufferView"];
+        if (!replaced) {
+            EXPECT_EQ(view_bytes(*again, after, i), view_bytes(both, shared, i)) << i;
+        }
+    }
+    const auto asset = read_asset(*again);
+    ASSERT_TRUE(asset.ok()) << asset.error().message;
+    EXPECT_EQ(asset->materials[0].textures.grid, larger.grid);
+    EXPECT_EQ(asset->materials[1].textures.grid, small_textures().grid);
+}
+
+// What something else refers to stays, wherever burin put it.
+TEST(Gltf, ReplacingKeepsWhatOthersShare) {
+    const Bytes once = attach(make_plane({1, 1}));
+    Json document = json_of(once);
+    const Json normal = document["materials"][0]["normalTexture"];
+    document["materials"].push_back({{"name", "second"}, {"emissiveTexture", normal}});
+    const Bytes glb = with_json(once, document);
+    const Bytes again = attach(model_of(glb), {.material = "plane"});
+    const Json after = json_of(again);
+    const auto index = normal["index"].get<std::size_t>();
+    EXPECT_EQ(after["materials"][1]["emissiveTexture"], normal);
+    EXPECT_NE(after["materials"][0]["normalTexture"]["index"], index);
+    const auto view = [](const Json& d, std::size_t texture) {
+        return d["images"][d["textures"][texture]["source"].get<std::size_t>()]["bufferView"]
+            .get<std::size_t>();
+    };
+    EXPECT_EQ(view_bytes(again, after, view(after, index)),
+              view_bytes(once, document, view(document, index)));
 }
 
 TEST(Gltf, OtherMaterialsAndUvSetsStayAsTheyAre) {

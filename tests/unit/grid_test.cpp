@@ -162,9 +162,42 @@ TEST(Grid, CostModelStaysNearTheFeatureWidth) {
     const double cell = 1.0 / grid.cols;
     EXPECT_GE(cell, 0.02);
     EXPECT_LE(cell, 0.1);
-    const CellGrid small = grid_of(pattern, {.max_bytes = 3000});
-    EXPECT_LE(grid_bytes(small), 3600u);
-    EXPECT_LT(grid_bytes(small), grid_bytes(grid));
+    EXPECT_GT(grid_bytes(grid), 3000u);
+}
+
+TEST(Grid, BudgetIsKept) {
+    std::vector<Path> even, crowded;
+    for (int i = 0; i < 12; ++i) even.push_back(stroke({0.1, 0.04 + 0.08 * i}, {0.9, 0.04 + 0.08 * i}));
+    for (int i = 0; i < 9; ++i)
+        for (int k = 0; k < 12; ++k)
+            crowded.push_back(
+                stroke({0.31 + 0.03 * i, 0.33 + 0.03 * k}, {0.325 + 0.03 * i, 0.33 + 0.03 * k}));
+    for (const auto& paths : {even, crowded})
+        for (const Wrap wrap : {Wrap::repeat, Wrap::clamp}) {
+            const ResolvedPattern pattern = pattern_of(paths, wrap);
+            const std::size_t free = grid_bytes(grid_of(pattern));
+            std::size_t before = free + 1;
+            for (std::size_t budget = free; budget > free / 4 && budget > 900; budget = budget * 9 / 10) {
+                const std::size_t bytes = grid_bytes(grid_of(pattern, {.max_bytes = budget}));
+                EXPECT_LE(bytes, budget) << paths.size() << " paths";
+                EXPECT_LE(bytes, before);
+                before = bytes;
+            }
+        }
+}
+
+// 63 elements in a cell at most: a budget below that is missed, and not by more than it must be.
+TEST(Grid, BudgetThatCannotBeKept) {
+    std::vector<Path> paths;
+    for (int i = 0; i < 10; ++i)
+        for (int k = 0; k < 10; ++k)
+            paths.push_back(stroke({0.05 + 0.1 * i, 0.03 + 0.1 * k}, {0.05 + 0.1 * i, 0.06 + 0.1 * k}));
+    const ResolvedPattern pattern = pattern_of(paths, Wrap::clamp);
+    const CellGrid grid = grid_of(pattern, {.max_bytes = 1});
+    EXPECT_GE(grid_bytes(grid), 8u * 4 + 2u * 100);
+    EXPECT_LE(grid_bytes(grid), 8u * 9 + 2u * 160);
+    for (std::size_t k = 0; k + 1 < grid.first_ref.size(); ++k)
+        EXPECT_LE(grid.first_ref[k + 1] - grid.first_ref[k], 63u);
 }
 
 TEST(Grid, FullCellIsRefusedWithTheSizeThatFits) {

@@ -34,7 +34,7 @@ namespace burin {
 
 struct GridOptions {
     double cell_size = 0.0;     // metres, side of a cell at most; 0: chosen by the cost model below
-    std::size_t max_bytes = 0;  // budget for cells (8 bytes) and references (2 bytes) the cost model keeps to; 0: none
+    std::size_t max_bytes = 0;  // grid_bytes at most, as below, when the cell size is not given; 0: no limit
     double margin = 0.0625;     // in cell sides, [0, 1]
     int threads = 0;            // 0: as many as the machine has; the result does not depend on it
 };
@@ -62,13 +62,17 @@ inline std::size_t grid_bytes(const CellGrid& grid) {
 }
 
 // Cost model: the expected work of a ray is cells visited + elements listed per cell visited, over sizes near 2 to 3
-// mean feature widths; the cheapest size is taken that keeps to the budget and to 63 references per cell.
+// mean feature widths; the cheapest size is taken that keeps to the budget and to 63 references per cell. The cost is
+// foretold from lengths and widths; bytes and references are counted, and cells made larger or smaller as they ask.
 // Requires: the result of resolve_pattern (or of unpack_textures).
-// Ensures: as above; the same bytes for any thread count.
+// Ensures: as above; the same bytes for any thread count. Without cell_size, grid_bytes(result) <= max_bytes unless no
+// such size keeps to 63 references per cell: then cells are as large as these allow, and grid_bytes tells by how much
+// the budget is missed.
 // Fails: invalid_argument for an option out of range; limit_exceeded when a cell needs more than
 // BURIN_MAX_REFS_PER_CELL references at any allowed size, naming cell, count and the size that would fit, and when an
 // element reaches around the tile.
-// Cost: about n log n in elements plus the number of references; two passes, threaded.
+// Cost: about n log n in elements plus the number of references; two passes, threaded. Where the counts do not keep to
+// the limits, one more pass per size tried, a few as a rule.
 Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& options = {});
 
 }  // namespace burin

@@ -94,7 +94,9 @@ Result<MaterialTarget> find_material(const Model& model, const AttachOptions& op
 // core material: normalTexture, and occlusionTexture unless the material has one. A normalTexture that the
 // material had gives way to the fallback, which every viewer understands; what it was is kept under the
 // material's extras as "burin_replaced_normal_texture", its texture and image stay in the file. A pattern
-// that the material already carries is replaced. `detail` is taken as given, but its buffer views are set
+// that the material already carries is replaced with its fallback: what both occupied is used again or left
+// out, as far as nothing else in the document refers to it and no index of anything else changes, so that
+// attaching twice gives the bytes of attaching once. `detail` is taken as given, but its buffer views are set
 // here. Fails as find_material does, and with limit_exceeded when the result passes 4 GiB. Equal input gives
 // equal bytes.
 Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedTextures& textures,
