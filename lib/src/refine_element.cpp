@@ -176,6 +176,7 @@ void judge_end(const EndFrame& end, Vec2 p, double b, double widest, double marg
             } else {
                 reach.possible &= beyond <= widest + margin;
                 reach.plain &= within;
+                reach.shaped |= !within;
             }
             return;
         default: {
@@ -186,6 +187,7 @@ void judge_end(const EndFrame& end, Vec2 p, double b, double widest, double marg
             const bool possible_outer = inside >= -margin;
             reach.possible &= clear ? (outer ? possible_outer : possible_inner) : possible_inner || possible_outer;
             reach.plain &= clear ? (outer ? plain_outer : plain_inner) : plain_inner && plain_outer;
+            reach.shaped |= end.end.shape != 0 && !within && (outer || !clear);
         }
     }
 }

@@ -57,10 +57,11 @@ bool is_tame(const ElementFrame& frame, const Foot& foot, double radius);
 Placement place(const ElementFrame& frame, Vec2 p, const Foot& foot);
 
 // Whether any point within `margin` of p may be acted on by a profile that reaches left..right (scaled), and whether
-// all of them are, plainly by the foot alone.
+// all of them are, plainly by the foot alone. Where an end is not shaped, the offset is the foot's wherever it acts.
 struct Reach {
     bool possible = false;
     bool plain = false;
+    bool shaped = false;  // an end's hip, round or bevel may change the offset somewhere
 };
 Reach reach_at(const ElementFrame& frame, Vec2 p, const Foot& foot, double left, double right, double margin);
 

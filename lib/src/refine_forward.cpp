@@ -158,7 +158,7 @@ Prediction Forward::predict(const std::vector<ElementUnknowns>& unknowns, const 
     prediction.parts.resize(parts);
     std::vector<std::vector<Residual>> residuals(parts);
     in_parallel(parts, options.threads, [&](int part) {
-        TexelModel texel(scene.layout, options.divisions, true);
+        TexelModel texel(scene.layout, options, true);
         Summation summation(scene.layout, unknowns);
         scene.for_texels(part, [&](int x, int y) {
             if (!texel.gather(x, y)) return;
@@ -179,7 +179,7 @@ Image Forward::image(const ForwardOptions& options) const {
     for (std::size_t k = 0; k < layout.ground.size(); ++k)
         if (layout.ground[k] != kNearStep) out.texels[k] = layout.ground[k];
     in_parallel(scene.parts(), options.threads, [&](int part) {
-        TexelModel texel(layout, options.divisions, false);
+        TexelModel texel(layout, options, false);
         scene.for_texels(part, [&](int x, int y) {
             if (texel.gather(x, y)) out.at(x, y) = static_cast<float>(texel.mean());
         });

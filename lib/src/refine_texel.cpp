@@ -77,8 +77,11 @@ bool same_level(double a, double b) { return std::abs(a - b) <= kLevelTolerance;
 
 }  // namespace
 
-TexelModel::TexelModel(const Layout& layout, int divisions, bool derivatives)
-    : layout_(layout), divisions_(std::min(divisions, 1 << (kDepths - 1))), derivatives_(derivatives) {}
+TexelModel::TexelModel(const Layout& layout, const ForwardOptions& options, bool derivatives)
+    : layout_(layout),
+      divisions_(std::min(options.divisions, 1 << (kDepths - 1))),
+      precision_(options.precision),
+      derivatives_(derivatives) {}
 
 bool TexelModel::gather(int x, int y) {
     const int column = x / kTile, row = y / kTile;
@@ -174,9 +177,10 @@ void TexelModel::consider(std::uint32_t index, const Square& texel) {
 // Fills in what the feature may show within `radius` of its foot's point.
 void TexelModel::bound(Actor& a, double radius) const {
     const Feature& f = *a.feature;
-    a.reach.plain = a.reach.plain && is_tame(f.frame, a.foot, radius) && std::min(f.frame.width0, f.frame.width1) > 1e-6;
+    const bool known = is_tame(f.frame, a.foot, radius) && std::min(f.frame.width0, f.frame.width1) > 1e-6;
+    a.reach.plain = a.reach.plain && known;
     Range b{-1e300, 1e300};
-    if (a.reach.plain) {
+    if (known && !a.reach.shaped) {
         const Range width = scales_near(f, a.foot, radius, f.frame.width0, f.frame.width1);
         b = product({a.foot.offset - radius, a.foot.offset + radius}, {1.0 / width.high, 1.0 / width.low});
     }
@@ -188,8 +192,8 @@ void TexelModel::bound(Actor& a, double radius) const {
     a.right = f.step && b.high > 0.0;
     a.within = b.low >= f.profile->left() && b.high <= f.profile->right();
     a.may_cut = profile.any_internal;
-    a.must_cut = a.within && profile.any_internal && profile.all_internal;
-    a.plane = a.reach.plain && profile.facets == 1 && f.frame.width0 == f.frame.width1 && f.frame.height0 == f.frame.height1;
+    a.must_cut = a.reach.plain && a.within && profile.any_internal && profile.all_internal;
+    a.plane = known && !a.reach.shaped && profile.facets == 1 && f.frame.width0 == f.frame.width1 && f.frame.height0 == f.frame.height1;
     if (!a.plane) return;
     const double steep = (a.high - a.low) / (2.0 * radius);
     a.middle = 0.5 * (a.low + a.high);
@@ -310,9 +314,20 @@ void TexelModel::cull(std::vector<Actor>& actors, const std::vector<StepLine>& s
     }
 }
 
+// The most that the surface may vary in the square.
+double TexelModel::doubt(const std::vector<Actor>& actors, const std::vector<StepLine>& steps) const {
+    const Limits limits = limits_of(actors, base_of(actors, steps));
+    double low = limits.floor;
+    for (const Actor& a : actors)
+        if (a.may_cut) low = std::min(low, a.low);
+    return std::min(limits.upper, limits.ceiling) - low;
+}
+
 // Whether one evaluation gives the mean over the square.
-bool TexelModel::settled(const std::vector<Actor>& actors, const std::vector<StepLine>& steps, int depth) const {
+bool TexelModel::settled(const std::vector<Actor>& actors, const std::vector<StepLine>& steps, const Square& square,
+                         int depth) const {
     if (actors.empty()) return true;
+    if (doubt(actors, steps) * square.share <= precision_) return true;
     const Actor& only = actors.front();
     if (actors.size() > 1 || !only.reach.plain) return false;
     if (near_step_ && only.feature->step && (steps.size() != 1 || steps[0].instance != only.instance)) {
@@ -369,7 +384,7 @@ double TexelModel::mean() {
 
 double TexelModel::square_mean(const Square& square, int depth) {
     if (depth > 0) cull(actors_[depth], steps_[depth], square.half);
-    if ((1 << depth) >= most_divisions_ || settled(actors_[depth], steps_[depth], depth))
+    if ((1 << depth) >= most_divisions_ || settled(actors_[depth], steps_[depth], square, depth))
         return cell_mean(square, depth, derivatives_);
     double sum = 0.0;
     for (int quarter = 0; quarter < 4; ++quarter) {

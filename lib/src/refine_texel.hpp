@@ -25,7 +25,7 @@ struct Candidate {
 
 class TexelModel {
   public:
-    TexelModel(const Layout& layout, int divisions, bool derivatives);
+    TexelModel(const Layout& layout, const ForwardOptions& options, bool derivatives);
 
     // Gathers what may act near texel (x, y). False when nothing is near. Texels of one tile in a row are cheapest.
     bool gather(int x, int y);
@@ -97,7 +97,9 @@ class TexelModel {
     void cull(std::vector<Actor>& actors, const std::vector<StepLine>& steps, double half) const;
     static bool clears(const Actor& a, const Actor& b, double sign, double half);
     static bool outdone(const Actor& a, const Actor& r, double half);
-    bool settled(const std::vector<Actor>& actors, const std::vector<StepLine>& steps, int depth) const;
+    bool settled(const std::vector<Actor>& actors, const std::vector<StepLine>& steps, const Square& square,
+                 int depth) const;
+    double doubt(const std::vector<Actor>& actors, const std::vector<StepLine>& steps) const;
     bool joined_smoothly(const std::vector<Actor>& actors) const;
     bool ruled_by_one();
     double square_mean(const Square& square, int depth);
@@ -111,6 +113,7 @@ class TexelModel {
 
     const Layout& layout_;
     const int divisions_;
+    const double precision_;
     const bool derivatives_;
     int most_divisions_ = 1;
     std::vector<std::uint32_t> tile_list_;
