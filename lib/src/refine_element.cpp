@@ -57,7 +57,7 @@ double nearest_parameter(const ElementFrame& f, Vec2 p, double guess) {
         double curvature = dot(first, first) + 2.0 * dot(d, second);
         curvature = std::max(curvature, 0.1 * dot(first, first));
         const double next = std::clamp(s - slope / std::max(curvature, 1e-300), 0.0, 1.0);
-        const bool settled = std::abs(next - s) < 1e-10;
+        const bool settled = std::abs(next - s) < 1e-8;
         s = next;
         if (settled) break;
     }
