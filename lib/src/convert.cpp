@@ -175,7 +175,7 @@ Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& optio
 // minutes and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a
 // clock, so that the bytes do not depend on the machine.
 bool can_afford_refinement(const Pattern& pattern, const Image& map) {
-    constexpr double kMostTexels = 1.2e5;  // element lengths times profile widths: a second or two
+    constexpr double kMostTexels = 3e5;  // element lengths times profile widths: up to 6 seconds on two cores
     const double texels = map.width / pattern.size.x;
     double work = 0.0;
     for (const Path& path : pattern.paths) {

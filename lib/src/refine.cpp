@@ -34,6 +34,11 @@ constexpr double kSplitMustGain = 0.95;      // of the misfit
 constexpr double kStrain = 0.02;             // texels, root mean square: an arc that is farther off is split
 constexpr double kShortestSplit = 6.0;       // texels
 constexpr double kTorn = 0.1;                // map scale
+// A texel's model is as exact as this share of what it is off by, not more: doubt about a part of it is then cheap.
+constexpr double kPrecision = 0.2;
+constexpr double kFirstPrecision = 4e-3;     // map scale
+constexpr double kLowerPrecision = 0.25;     // of the precision in use: what makes it worth to begin anew
+constexpr double kMisfitPrecision = 0.02;   // of Huber's threshold
 constexpr double kSettled = 1e-4;  // relative gain of a step below which the iteration ends
 
 // The pattern in texels of the map's width, heights in map scale: white 1, black 0.
@@ -109,12 +114,13 @@ class Refinement {
     Refinement(const Image& map, Vec2 side, const RefineOptions& options)
         : map_(map), side_(side), options_(options) {}
 
-    Status predict(State& state, double threshold) const {
+    Status predict(State& state, double threshold, double precision) const {
         const Result<ResolvedPattern> resolved = resolve_pattern(state.pattern, resolve_options());
         if (!resolved) return resolved.error();
         state.elements = state.parameters.of_elements(state.pattern, *resolved);
         ForwardOptions forward;
         forward.robust = threshold;
+        forward.precision = precision;
         forward.threads = options_.threads;
         state.prediction = Forward(*resolved, map_, side_).predict(state.elements, forward);
         return Done{};
@@ -125,26 +131,36 @@ class Refinement {
         Pattern tied = start;
         Parameters parameters(tied, options_);
         State best{std::move(tied), std::move(parameters), {}, {}};
-        if (Status status = predict(best, 1e30); !status) return status.error();
+        double precision = kFirstPrecision;
+        if (Status status = predict(best, 1e30, precision); !status) return status.error();
         if (report.iterations == 0) report.rms_before = root_mean_square(best.prediction.residuals);
         report.unknowns = best.parameters.count();
         double damping = kFirstDamping;
+        bool refused = false;  // the last step
         for (int i = 0; i < options_.iterations && damping < kMostDamping && report.unknowns > 0; ++i) {
-            const double deviation = deviation_of(best.prediction.residuals);
+            double deviation = deviation_of(best.prediction.residuals);
+            if (kPrecision * deviation < kLowerPrecision * precision) {
+                precision = kPrecision * deviation;
+                if (Status status = predict(best, threshold_of(deviation), precision); !status) return status.error();
+                deviation = deviation_of(best.prediction.residuals);
+            }
             NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
             equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
             State next{best.pattern, best.parameters, {}, {}};
             next.parameters.apply(equations.step(damping), options_.max_shift_texels, next.pattern);
             ++report.iterations;
-            const bool resolves = predict(next, threshold_of(deviation)).ok();
+            const bool resolves = predict(next, threshold_of(deviation), precision).ok();
             const double before = cost_of(best, deviation);
             const double after = resolves ? cost_of(next, deviation) : 1e300;
             if (after >= before) {
                 damping = std::max(10.0 * damping, 1e-2);
+                refused = true;
                 continue;
             }
             best = std::move(next);
-            damping = std::max(0.1 * damping, 1e-6);
+            // What was too little damping a step ago is so still: a refused step costs as much as one that is taken.
+            if (!refused) damping = std::max(0.1 * damping, 1e-6);
+            refused = false;
             if (before - after < kSettled * before) break;
         }
         return best;
@@ -199,11 +215,12 @@ class Refinement {
     }
 
     // Model minus map of every texel.
-    Result<std::vector<Residual>> residuals(const Pattern& pattern) const {
+    Result<std::vector<Residual>> residuals(const Pattern& pattern, double threshold = kRoughThreshold) const {
         const Result<ResolvedPattern> resolved = resolve_pattern(pattern, resolve_options());
         if (!resolved) return resolved.error();
         ForwardOptions forward;
         forward.threads = options_.threads;
+        forward.precision = kMisfitPrecision * threshold;
         const Image model = Forward(*resolved, map_, side_).image(forward);
         std::vector<Residual> out(model.texels.size());
         for (std::size_t k = 0; k < out.size(); ++k) out[k].value = model.texels[k] - map_.texels[k];
@@ -212,7 +229,7 @@ class Refinement {
 
     // Robust misfit over the whole map: patterns whose features cover different texels compare fairly.
     Result<double> misfit(const Pattern& pattern, double threshold) const {
-        const Result<std::vector<Residual>> all = residuals(pattern);
+        const Result<std::vector<Residual>> all = residuals(pattern, threshold);
         if (!all) return all.error();
         return robust_cost(*all, threshold);
     }

@@ -6,6 +6,14 @@
 namespace burin::refinement {
 namespace {
 
+// Texels neither overflow nor vanish: the care of std::hypot is not needed where every texel is looked at.
+double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
+
+Vec2 direction(Vec2 a) {
+    const double l = norm(a);
+    return l > 0.0 ? a * (1.0 / l) : Vec2{1.0, 0.0};
+}
+
 Vec2 curve_point(const ElementFrame& f, double s) {
     return lerp(lerp(f.p0, f.p1, s), lerp(f.p1, f.p2, s), s);
 }
@@ -19,6 +27,16 @@ EndFrame end_frame(const ElementEnd& end, Vec2 vertex, Vec2 outward) {
     const double cosine = dot(clip, normal);
     if (std::abs(cosine) > 1e-6) out.bevel_normal = clip * (1.0 / cosine);
     return out;
+}
+
+// The cross product of first and second derivative is constant along a quadratic: it bends most where it is slowest.
+double greatest_curvature(const ElementFrame& f) {
+    const Vec2 first = 2.0 * (f.p1 - f.p0), second = 2.0 * (f.p0 - 2.0 * f.p1 + f.p2);
+    const double square = dot(second, second);
+    if (square <= 0.0) return 0.0;
+    const double slowest = std::clamp(-dot(first, second) / square, 0.0, 1.0);
+    const double speed = std::max(1e-9, norm(first + second * slowest));
+    return cross(first, second) / (speed * speed * speed);
 }
 
 // Derivative of half the squared distance to the point, and its derivative, by the curve parameter.
@@ -39,7 +57,7 @@ double nearest_parameter(const ElementFrame& f, Vec2 p, double guess) {
         double curvature = dot(first, first) + 2.0 * dot(d, second);
         curvature = std::max(curvature, 0.1 * dot(first, first));
         const double next = std::clamp(s - slope / std::max(curvature, 1e-300), 0.0, 1.0);
-        const bool settled = std::abs(next - s) < 1e-10;
+        const bool settled = std::abs(next - s) < 1e-8;
         s = next;
         if (settled) break;
     }
@@ -56,14 +74,14 @@ Foot foot_on_line(const ElementFrame& f, Vec2 p) {
     foot.weight[0] = 1.0 - foot.parameter;
     foot.weight[2] = foot.parameter;
     const double beyond = std::max({0.0, -along, along - f.size});
-    foot.distance = std::hypot(foot.offset, beyond);
+    foot.distance = std::sqrt(foot.offset * foot.offset + beyond * beyond);
     return foot;
 }
 
 // The straight continuation of a quadratic beyond its start or its end.
 void continue_straight(const ElementFrame& f, Vec2 p, bool at_start, Foot& foot) {
     const Vec2 vertex = at_start ? f.p0 : f.p2;
-    const double leg = std::max(1e-9, length(at_start ? f.p1 - f.p0 : f.p2 - f.p1));
+    const double leg = std::max(1e-9, norm(at_start ? f.p1 - f.p0 : f.p2 - f.p1));
     const double along = dot(p - vertex, foot.tangent);
     foot.offset = dot(p - vertex, normal_of(foot.tangent));
     foot.bend = 0.0;
@@ -78,15 +96,15 @@ Foot foot_on_quadratic(const ElementFrame& f, Vec2 p, double guess) {
     Foot foot;
     const double s = nearest_parameter(f, p, guess);
     const Vec2 d = p - curve_point(f, s);
-    foot.distance = length(d);
+    foot.distance = norm(d);
     foot.parameter = s;
     const Vec2 first = lerp(f.p1 - f.p0, f.p2 - f.p1, s) * 2.0;
-    foot.tangent = s <= 0.0 ? f.tangent0 : s >= 1.0 ? f.tangent1 : unit(first);
+    foot.tangent = s <= 0.0 ? f.tangent0 : s >= 1.0 ? f.tangent1 : direction(first);
     const double along = dot(d, foot.tangent);
     if (s <= 0.0 && along < 0.0) return continue_straight(f, p, true, foot), foot;
     if (s >= 1.0 && along > 0.0) return continue_straight(f, p, false, foot), foot;
     foot.offset = dot(d, normal_of(foot.tangent));
-    const double speed = std::max(1e-9, length(first));
+    const double speed = std::max(1e-9, norm(first));
     const double curvature = cross(first, 2.0 * (f.p0 - 2.0 * f.p1 + f.p2)) / (speed * speed * speed);
     foot.bend = -curvature / std::max(0.2, 1.0 - curvature * foot.offset);
     foot.weight[0] = (1.0 - s) * (1.0 - s);
@@ -120,7 +138,7 @@ bool allow(const EndFrame& end, bool at_start, Vec2 p, double b, Placement& plac
         if (shape == EndShape::clip) return dot(r, end.clip_normal) >= 0.0;
         if (beyond <= 0.0) return true;
         if (shape == EndShape::round) {
-            set_at_vertex(placement, at_start, sign_of(b) * length(r), unit(r) * sign_of(b));
+            set_at_vertex(placement, at_start, sign_of(b) * norm(r), direction(r) * sign_of(b));
         } else if (beyond > std::abs(b)) {
             set_at_vertex(placement, at_start, sign_of(b) * beyond, end.outward * sign_of(b));
         }
@@ -132,7 +150,7 @@ bool allow(const EndFrame& end, bool at_start, Vec2 p, double b, Placement& plac
     const CornerShape shape = static_cast<CornerShape>(end.end.shape);
     if (shape == CornerShape::round) {
         const double side = end.end.priority == Priority::left ? -1.0 : 1.0;
-        set_at_vertex(placement, at_start, side * length(r), unit(r) * side);
+        set_at_vertex(placement, at_start, side * norm(r), direction(r) * side);
     } else if (shape == CornerShape::bevel) {
         // The outward tangent at the start runs against the path, so its normal does too.
         const Vec2 m = at_start ? -end.bevel_normal : end.bevel_normal;
@@ -158,12 +176,19 @@ void judge_end(const EndFrame& end, Vec2 p, double b, double widest, double marg
             } else {
                 reach.possible &= beyond <= widest + margin;
                 reach.plain &= within;
+                reach.shaped |= !within;
             }
             return;
-        default:
-            reach.possible &= beyond <= margin || inside >= -margin;
-            reach.plain &= inside >= margin && (within || (is_outer(end, b) && std::abs(b) >= margin &&
-                                                           end.end.shape == 0 && beyond <= 4.0 * widest));
+        default: {
+            const bool clear = std::abs(b) >= margin, outer = is_outer(end, b);
+            const bool plain_inner = within, possible_inner = beyond <= margin;
+            const bool plain_outer = inside >= margin &&
+                                     (within || (clear && end.end.shape == 0 && beyond <= 4.0 * widest));
+            const bool possible_outer = inside >= -margin;
+            reach.possible &= clear ? (outer ? possible_outer : possible_inner) : possible_inner || possible_outer;
+            reach.plain &= clear ? (outer ? plain_outer : plain_inner) : plain_inner && plain_outer;
+            reach.shaped |= end.end.shape != 0 && !within && (outer || !clear);
+        }
     }
 }
 
@@ -176,10 +201,11 @@ ElementFrame frame_of(const ResolvedElement& resolved) {
     f.p0 = e.p0;
     f.p2 = e.p2;
     f.p1 = e.kind == ElementKind::line ? lerp(e.p0, e.p2, 0.5) : e.p1;
-    f.tangent0 = unit(f.p1 == f.p0 ? f.p2 - f.p0 : f.p1 - f.p0);
-    f.tangent1 = unit(f.p1 == f.p2 ? f.p2 - f.p0 : f.p2 - f.p1);
-    if (e.kind == ElementKind::line) f.tangent0 = f.tangent1 = unit(e.p2 - e.p0);
-    f.size = std::max(1e-9, length(f.p1 - f.p0) + length(f.p2 - f.p1));
+    f.tangent0 = direction(f.p1 == f.p0 ? f.p2 - f.p0 : f.p1 - f.p0);
+    f.tangent1 = direction(f.p1 == f.p2 ? f.p2 - f.p0 : f.p2 - f.p1);
+    if (e.kind == ElementKind::line) f.tangent0 = f.tangent1 = direction(e.p2 - e.p0);
+    f.size = std::max(1e-9, norm(f.p1 - f.p0) + norm(f.p2 - f.p1));
+    f.bow = greatest_curvature(f);
     f.start = end_frame(resolved.start, f.p0, -f.tangent0);
     f.end = end_frame(resolved.end, f.p2, f.tangent1);
     f.width0 = e.width0, f.width1 = e.width1;
@@ -189,6 +215,11 @@ ElementFrame frame_of(const ResolvedElement& resolved) {
 
 Foot foot_of(const ElementFrame& frame, Vec2 p, double guess) {
     return frame.kind == ElementKind::line ? foot_on_line(frame, p) : foot_on_quadratic(frame, p, guess);
+}
+
+bool is_tame(const ElementFrame& frame, const Foot& foot, double radius) {
+    constexpr double kTame = 0.8;  // of the way to the centre of curvature
+    return frame.bow * foot.offset + std::abs(frame.bow) * radius < kTame;
 }
 
 Placement place(const ElementFrame& frame, Vec2 p, const Foot& foot) {

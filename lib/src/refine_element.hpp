@@ -30,6 +30,7 @@ struct ElementFrame {
     Vec2 p0, p1, p2;
     Vec2 tangent0, tangent1;  // unit, along the path
     double size = 0.0;        // length of the chord (line) or of the control polygon
+    double bow = 0.0;         // greatest curvature, > 0 where the centre of curvature lies at b > 0
     EndFrame start, end;
     double width0 = 1.0, width1 = 1.0, height0 = 1.0, height1 = 1.0;
 };
@@ -49,13 +50,18 @@ ElementFrame frame_of(const ResolvedElement& element);
 // `guess`: a curve parameter near the foot of a quadratic, or negative when there is none.
 Foot foot_of(const ElementFrame& frame, Vec2 p, double guess = -1.0);
 
+// Whether the offset within `radius` of the foot's point differs from the foot's by no more than the radius. It does
+// not where the foot may leap: near a quadratic's centre of curvature.
+bool is_tame(const ElementFrame& frame, const Foot& foot, double radius);
+
 Placement place(const ElementFrame& frame, Vec2 p, const Foot& foot);
 
 // Whether any point within `margin` of p may be acted on by a profile that reaches left..right (scaled), and whether
-// all of them are, plainly by the foot alone.
+// all of them are, plainly by the foot alone. Where an end is not shaped, the offset is the foot's wherever it acts.
 struct Reach {
     bool possible = false;
     bool plain = false;
+    bool shaped = false;  // an end's hip, round or bevel may change the offset somewhere
 };
 Reach reach_at(const ElementFrame& frame, Vec2 p, const Foot& foot, double left, double right, double margin);
 

@@ -64,6 +64,8 @@ struct Prediction {
 struct ForwardOptions {
     int divisions = 8;         // cells per side of a divided texel
     double robust = 1e30;      // Huber's threshold
+    // Parts of a texel where the surface cannot vary by more than this, times their share, are not divided further.
+    double precision = 0.0;
     int threads = 0;
 };
 

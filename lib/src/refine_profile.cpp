@@ -64,12 +64,15 @@ ProfileMean profile_mean(const SweptProfile& profile, double b, Spread spread, d
     const std::size_t count = profile.b.size();
     const double u = std::max(spread.u, spread.v);
     const double v = std::min(spread.u, spread.v);
-    ProfileMean mean{profile.h.front(), 0.0};
+    // Facets that lie wholly on the left have risen.
+    std::size_t first = 0;
+    while (first + 1 < count && profile.b[first + 1] <= b - spread.half()) ++first;
+    ProfileMean mean{profile.h[first], 0.0};
     if (d_b) std::fill(d_b, d_b + count, 0.0);
     if (d_h) std::fill(d_h, d_h + count, 0.0);
-    if (d_h) d_h[0] = 1.0;
-    RampMean low = ramp_mean(b - profile.b[0], u, v);
-    for (std::size_t i = 0; i + 1 < count && low.ramp > 0.0; ++i) {
+    if (d_h) d_h[first] = 1.0;
+    RampMean low = ramp_mean(b - profile.b[first], u, v);
+    for (std::size_t i = first; i + 1 < count && low.ramp > 0.0; ++i) {
         const RampMean high = ramp_mean(b - profile.b[i + 1], u, v);
         const double width = profile.b[i + 1] - profile.b[i];
         const double rise = profile.h[i + 1] - profile.h[i];

@@ -91,21 +91,27 @@ void list_by_tile(Layout& layout) {
     }
 }
 
+void note_side(Layout& layout, const std::vector<StepLine>& steps, int x, int y, std::vector<float>& side) {
+    const NearestStep nearest = nearest_step(layout, steps, layout.centre(x, y));
+    if (nearest.instance < 0) return;
+    const Feature& feature = layout.features[layout.instances[nearest.instance].element];
+    if (nearest.distance > std::max(-feature.left, feature.right) + 1.25) return;
+    const std::size_t k = static_cast<std::size_t>(y) * layout.width + x;
+    layout.ground[k] = kNearStep;
+    side[k] = static_cast<float>(nearest.level);
+}
+
 // Which side the steps leave each texel near them on; kNearStep in the ground of texels within a step's walls.
 std::vector<float> side_levels(Layout& layout) {
     std::vector<float> side(static_cast<std::size_t>(layout.width) * layout.height, 0.0f);
-    for (int y = 0; y < layout.height; ++y) {
-        for (int x = 0; x < layout.width; ++x) {
-            const std::size_t tile =
-                static_cast<std::size_t>(y / kTile) * layout.tile_columns + static_cast<std::size_t>(x / kTile);
-            if (!layout.tile_has_step[tile]) continue;
-            const NearestStep nearest = nearest_step(layout, tile, layout.centre(x, y));
-            if (nearest.instance < 0) continue;
-            const Feature& feature = layout.features[layout.instances[nearest.instance].element];
-            if (nearest.distance > std::max(-feature.left, feature.right) + 1.25) continue;
-            const std::size_t k = static_cast<std::size_t>(y) * layout.width + x;
-            layout.ground[k] = kNearStep;
-            side[k] = static_cast<float>(nearest.level);
+    std::vector<StepLine> steps;
+    for (int row = 0; row < layout.tile_rows; ++row) {
+        for (int column = 0; column < layout.tile_columns; ++column) {
+            if (!layout.tile_has_step[static_cast<std::size_t>(row) * layout.tile_columns + column]) continue;
+            nearest_steps_of_tile(layout, column, row, steps);
+            for (int y = row * kTile; y < std::min((row + 1) * kTile, layout.height); ++y)
+                for (int x = column * kTile; x < std::min((column + 1) * kTile, layout.width); ++x)
+                    note_side(layout, steps, x, y, side);
         }
     }
     return side;
@@ -164,23 +170,78 @@ class RegionFill {
 
 }  // namespace
 
-NearestStep nearest_step(const Layout& layout, std::size_t tile, Vec2 p) {
+NearestStep nearest_step(const Layout& layout, const std::vector<StepLine>& steps, Vec2 p) {
     NearestStep best;
     double farthest = 0.0;
-    for (std::uint32_t k = layout.first[tile]; k < layout.first[tile + 1]; ++k) {
-        const Instance& instance = layout.instances[layout.listed[k]];
+    for (const StepLine& step : steps) {
+        const Instance& instance = layout.instances[step.instance];
         const Feature& feature = layout.features[instance.element];
-        if (!feature.step) continue;
         const Foot foot = foot_of(feature.frame, p - instance.offset);
         // Two neighbours share the nearest point at their corner: the one whose line is farther away decides.
         const double difference = foot.distance - best.distance;
         const bool tie = std::abs(difference) <= 1e-9 * (1.0 + foot.distance);
         if (tie ? std::abs(foot.offset) <= farthest : difference > 0.0) continue;
         farthest = std::abs(foot.offset);
-        best = {static_cast<int>(layout.listed[k]), foot.offset < 0.0 ? feature.level_left : feature.level_right,
+        best = {static_cast<int>(step.instance), foot.offset < 0.0 ? feature.level_left : feature.level_right,
                 foot.distance};
     }
     return best;
+}
+
+namespace {
+
+// The end of the element that is nearer than the rest of it to all points within `radius` of p; null when none is.
+const Vec2* nearest_vertex(const ElementFrame& frame, const Foot& foot, Vec2 p, double radius) {
+    if (foot.parameter >= 0.0 && foot.parameter <= 1.0) return nullptr;
+    const EndFrame& end = foot.parameter < 0.0 ? frame.start : frame.end;
+    const bool clear = dot(p - end.vertex, end.outward) > radius && is_tame(frame, foot, radius);
+    return clear ? &end.vertex : nullptr;
+}
+
+// Where neighbours share the nearest point, the one whose line is farther away decides: see nearest_step.
+bool gives_way(const StepLine& a, const StepLine& b, Vec2 apart, double radius) {
+    if (!a.vertex || !b.vertex) return false;
+    const Vec2 gap = *a.vertex + apart - *b.vertex;
+    return std::abs(gap.x) + std::abs(gap.y) < 1e-9 && std::abs(b.offset) > std::abs(a.offset) + 2.0 * radius;
+}
+
+}  // namespace
+
+void keep_nearest_steps(const Layout& layout, Vec2 p, double radius, std::vector<StepLine>& steps) {
+    double nearest = 1e300;
+    for (StepLine& step : steps) {
+        const Instance& instance = layout.instances[step.instance];
+        const Feature& feature = layout.features[instance.element];
+        const ElementFrame& frame = feature.frame;
+        const Foot foot = foot_of(frame, p - instance.offset);
+        step.distance = foot.distance;
+        step.offset = foot.offset;
+        step.one_sided = std::abs(foot.offset) > radius && is_tame(frame, foot, radius);
+        step.level = foot.offset < 0.0 ? feature.level_left : feature.level_right;
+        step.vertex = nearest_vertex(frame, foot, p - instance.offset, radius);
+        nearest = std::min(nearest, step.distance);
+    }
+    const double farthest = (nearest + 2.0 * radius) * (1.0 + 1e-6);
+    std::erase_if(steps, [&](const StepLine& s) { return s.distance > farthest; });
+    const std::vector<Instance>& instances = layout.instances;
+    for (std::size_t i = 0; i < steps.size();) {
+        const bool out = std::any_of(steps.begin(), steps.end(), [&](const StepLine& other) {
+            return gives_way(steps[i], other, instances[steps[i].instance].offset - instances[other.instance].offset, radius);
+        });
+        if (out)
+            steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(i));
+        else
+            ++i;
+    }
+}
+
+void nearest_steps_of_tile(const Layout& layout, int column, int row, std::vector<StepLine>& steps) {
+    const std::size_t tile = static_cast<std::size_t>(row) * layout.tile_columns + static_cast<std::size_t>(column);
+    steps.clear();
+    for (std::uint32_t k = layout.first[tile]; k < layout.first[tile + 1]; ++k)
+        if (layout.features[layout.instances[layout.listed[k]].element].step) steps.push_back({layout.listed[k], 0.0});
+    const Vec2 side = layout.side * double(kTile);
+    keep_nearest_steps(layout, {(column + 0.5) * side.x, (row + 0.5) * side.y}, 0.5 * length(side), steps);
 }
 
 Layout lay_out(const ResolvedPattern& pattern, int width, int height, Vec2 side) {

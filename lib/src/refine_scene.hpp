@@ -49,13 +49,29 @@ struct Layout {
 };
 constexpr float kNearStep = -1e30f;
 
-// The step whose line is nearest to p, of those listed in a tile.
+// A step whose line may be the nearest one somewhere in a square.
+struct StepLine {
+    std::uint32_t instance = 0;
+    double distance = 0.0;  // from the square's centre
+    double offset = 0.0;    // of the centre
+    const Vec2* vertex = nullptr;  // the line's end when that is its nearest point to all of the square
+    bool one_sided = false;        // the square lies on one side of the line
+    double level = 0.0;            // of the ground on the centre's side
+};
+
+// The step whose line is nearest to p.
 struct NearestStep {
     int instance = -1;
     double level = 0.0;  // ground at p
     double distance = 1e300;
 };
-NearestStep nearest_step(const Layout& layout, std::size_t tile, Vec2 p);
+NearestStep nearest_step(const Layout& layout, const std::vector<StepLine>& steps, Vec2 p);
+
+// Leaves only the steps that may be the nearest within `radius` of p. Requires: none that may be is missing.
+void keep_nearest_steps(const Layout& layout, Vec2 p, double radius, std::vector<StepLine>& steps);
+
+// The steps that may be the nearest somewhere in a tile.
+void nearest_steps_of_tile(const Layout& layout, int column, int row, std::vector<StepLine>& steps);
 
 Layout lay_out(const ResolvedPattern& pattern, int width, int height, Vec2 side);
 

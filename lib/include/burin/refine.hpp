@@ -59,7 +59,8 @@ struct RefineReport {
 // Paths that a lenient `resolve_pattern` drops stay where they are.
 // Fails with invalid_argument on options out of range or an empty map, and with invalid_input, naming the path, on
 // profile indices out of range and on numbers that are not finite; the pattern is then unchanged.
-// Cost: about 0.1 microseconds per texel near a feature and step, ten times that within a few texels of junctions.
+// Cost: about a microsecond per texel near a feature and step; several times that where features of nearly the same
+// height lie over each other. What the map is noisier than is not computed.
 Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const RefineOptions& options = {});
 
 }  // namespace burin
