@@ -166,15 +166,21 @@ Regions grow_regions(const Image& map, const Lattice& lattice, const std::vector
     return regions;
 }
 
+// Summed height differences from a few texels before the border to a few behind it, and from farther away on both sides:
+// a large map may show its walls softer than a small one.
 struct Border {
-    double jump = 0.0;   // summed height difference three texels to each side
+    double near = 0.0, far = 0.0;
     int length = 0;
+
+    // The greater of both means, seen upwards from the lower region to the higher one.
+    double jump(double gap) const { return std::max(gap < 0 ? -near : near, gap < 0 ? -far : far) / length; }
 };
 
 using Borders = std::map<std::pair<std::uint32_t, std::uint32_t>, Border>;
 
 Borders measure_borders(const Image& map, const Lattice& lattice, const Regions& regions) {
     Borders borders;
+    const int far = std::clamp(std::min(lattice.width, lattice.height) / 512, 3, 24);
     for (int y = 0; y < lattice.height; ++y)
         for (int x = 0; x < lattice.width; ++x)
             for (int side = 0; side < 4; side += 2) {
@@ -183,14 +189,15 @@ Borders measure_borders(const Image& map, const Lattice& lattice, const Regions&
                 if (j < 0) continue;
                 std::uint32_t a = regions.label[lattice.index(x, y)], b = regions.label[j];
                 if (a == b) continue;
-                double jump = map.texels[lattice.nearest(x + 4 * dx, y + 4 * dy)] -
-                              map.texels[lattice.nearest(x - 3 * dx, y - 3 * dy)];
-                if (a > b) {
-                    std::swap(a, b);
-                    jump = -jump;
-                }
+                const auto jump_at = [&](int reach) {
+                    return map.texels[lattice.nearest(x + (reach + 1) * dx, y + (reach + 1) * dy)] -
+                           map.texels[lattice.nearest(x - reach * dx, y - reach * dy)];
+                };
+                const double sign = a > b ? -1.0 : 1.0;
+                if (a > b) std::swap(a, b);
                 Border& border = borders[{a, b}];
-                border.jump += jump;
+                border.near += sign * jump_at(3);
+                if (far > 3) border.far += sign * jump_at(far);
                 ++border.length;
             }
     return borders;
@@ -228,7 +235,7 @@ bool merge_weak(const Image& map, const Lattice& lattice, Regions& regions, cons
     std::vector<Weak> weak;
     for (const auto& [pair, border] : borders) {
         const double gap = regions.level[pair.second] - regions.level[pair.first];
-        const double jump = border.jump / border.length * (gap < 0 ? -1.0 : 1.0);
+        const double jump = border.jump(gap);
         const double small = std::min(regions.area[pair.first], regions.area[pair.second]);
         const double energy = small * gap * gap;
         if (jump < least_jump || jump < 0.3 * std::fabs(gap) || energy < least_energy)
