@@ -86,7 +86,8 @@ void find_features(const Image& source, Traced& traced) {
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
     traced.flattened = crop_margin(map, margin, lattice);
-    traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy);
+    traced.flat = find_flat(traced.flattened, lattice, noise);
+    traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy, traced.flat);
     traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
 }
 
@@ -121,7 +122,9 @@ std::vector<FittedChain> fit_within(Traced& traced, const Image& map, const Vect
     }
     for (int round = 0; round < 8 && steps > most * 3 / 4; ++round) {
         share *= 2.0;
-        merge_regions(traced.flattened, lattice, result.noise, share * energy, traced.regions);
+        const std::size_t regions = traced.regions.level.size();
+        merge_regions(traced.flattened, lattice, result.noise, share * energy, traced.flat, traced.regions);
+        if (traced.regions.level.size() == regions) continue;
         traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
         steps = count_lines(traced.steps, result.tolerance);
     }

@@ -70,7 +70,8 @@ struct Traced {
     double noise = 0.0;   // see Vectorized
     double energy = 0.0;
     std::vector<Chain> lines, steps;
-    Image flattened;  // the map without the lines
+    Image flattened;                 // the map without the lines
+    std::vector<std::uint8_t> flat;  // per texel of it, see find_flat
     Regions regions;
 };
 
@@ -119,9 +120,13 @@ void extend_to_lines(std::vector<Chain>& chains, const Image& response, const La
 double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise);
 
 // Plateaus, and the step contours between them. Regions whose sum of squares against a neighbour is below
-// `least_energy` join it; merge_regions does that with a greater one to regions that exist.
-Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double least_energy);
-void merge_regions(const Image& map, const Lattice& lattice, double noise, double least_energy, Regions& regions);
+// `least_energy` join it; merge_regions does that with a greater one to regions that exist. `flat`: 1 for texels of flat
+// ground, where the values around differ by no more than the grain explains.
+std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, double noise);
+Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
+                        const std::vector<std::uint8_t>& flat);
+void merge_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
+                   const std::vector<std::uint8_t>& flat, Regions& regions);
 std::vector<Chain> trace_steps(const Image& map, const Lattice& lattice, const Regions& regions);
 
 }  // namespace burin::vectorizing

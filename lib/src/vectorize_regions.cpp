@@ -15,24 +15,6 @@ constexpr int kBins = 256;
 constexpr int kMostLevels = 8;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-// Flat ground: the values of the 3 x 3 texels around differ by no more than the grain explains.
-std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, double noise) {
-    const float most = static_cast<float>(std::max(7.0 * noise, 0.035));
-    std::vector<std::uint8_t> flat(map.texels.size());
-    for (int y = 0; y < lattice.height; ++y)
-        for (int x = 0; x < lattice.width; ++x) {
-            float low = 2.0f, high = -2.0f;
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const float v = map.texels[lattice.nearest(x + dx, y + dy)];
-                    low = std::min(low, v);
-                    high = std::max(high, v);
-                }
-            flat[static_cast<std::size_t>(y) * lattice.width + x] = high - low < most;
-        }
-    return flat;
-}
-
 struct Histogram {
     std::array<double, kBins + 1> count{}, sum{}, square{};  // running totals
 
@@ -276,8 +258,25 @@ void merge_weak_regions(const Image& map, const Lattice& lattice, double noise, 
 
 }  // namespace
 
-Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double least_energy) {
-    const std::vector<std::uint8_t> flat = find_flat(map, lattice, noise);
+std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, double noise) {
+    const float most = static_cast<float>(std::max(7.0 * noise, 0.035));
+    std::vector<std::uint8_t> flat(map.texels.size());
+    for (int y = 0; y < lattice.height; ++y)
+        for (int x = 0; x < lattice.width; ++x) {
+            float low = 2.0f, high = -2.0f;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const float v = map.texels[lattice.nearest(x + dx, y + dy)];
+                    low = std::min(low, v);
+                    high = std::max(high, v);
+                }
+            flat[static_cast<std::size_t>(y) * lattice.width + x] = high - low < most;
+        }
+    return flat;
+}
+
+Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
+                        const std::vector<std::uint8_t>& flat) {
     const Histogram histogram = make_histogram(map, flat);
     const std::vector<double> levels = choose_levels(histogram, kMostLevels);
     Regions regions = grow_regions(map, lattice, flat, levels.empty() ? std::vector<double>{0.5} : levels, 6);
@@ -286,8 +285,9 @@ Regions segment_regions(const Image& map, const Lattice& lattice, double noise, 
     return regions;
 }
 
-void merge_regions(const Image& map, const Lattice& lattice, double noise, double least_energy, Regions& regions) {
-    merge_weak_regions(map, lattice, noise, least_energy, find_flat(map, lattice, noise), regions);
+void merge_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
+                   const std::vector<std::uint8_t>& flat, Regions& regions) {
+    merge_weak_regions(map, lattice, noise, least_energy, flat, regions);
 }
 
 }  // namespace burin::vectorizing
