@@ -108,6 +108,12 @@ std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& l
 // Joins and ties the ends of all lines of one kind by the map that has them in it: the two below.
 void tie_lines(std::vector<Chain>& chains, const Image& map, const Lattice& lattice, ChainKind kind, double radius);
 
+// Total least squares line through at least one point.
+struct LineFit {
+    Vec2 mean, direction;  // unit, of either sense
+};
+LineFit fit_line(const std::vector<Vec2>& points);
+
 // Ends of two chains that continue each other, with the response (see trace_lines) shown in between, make one chain: a
 // line that crosses another at a small angle comes in two pieces.
 void join_facing_ends(std::vector<Chain>& chains, const Image& response, const Lattice& lattice);

@@ -50,18 +50,7 @@ Arm make_arm(const Strand& strand, int index, int end, const SkeletonNode& node,
         if (near.size() >= 3 && length(p - near.front()) > span) break;
         near.push_back(p);
     }
-    Vec2 mean;
-    for (const Vec2 p : near) mean = mean + p;
-    mean = mean * (1.0 / near.size());
-    double xx = 0, xy = 0, yy = 0;
-    for (const Vec2 p : near) {
-        const Vec2 d = p - mean;
-        xx += d.x * d.x;
-        xy += d.x * d.y;
-        yy += d.y * d.y;
-    }
-    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-    Vec2 direction{std::cos(angle), std::sin(angle)};
+    auto [mean, direction] = fit_line(near);
     const Vec2 shift = tile_shift(near.front(), node.position, lattice);
     const Vec2 foot = mean + shift - node.position;
     Vec2 outward = near.size() > 1 ? near.front() - near.back() : -foot;

@@ -9,6 +9,19 @@
 #include <burin/fit.hpp>
 
 namespace burin::vectorizing {
+
+LineFit fit_line(const std::vector<Vec2>& points) {
+    Vec2 mean;
+    for (const Vec2 p : points) mean = mean + p * (1.0 / static_cast<double>(points.size()));
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (const Vec2 p : points) {
+        const Vec2 d = p - mean;
+        xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
+    }
+    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    return {mean, {std::cos(angle), std::sin(angle)}};
+}
+
 namespace {
 
 constexpr double kBridge = 3.0;       // texels between points beyond which there were others that were dropped
@@ -38,15 +51,7 @@ EndLine fit_end_line(const Chain& chain, std::uint32_t index, bool at_start) {
         if (near.size() >= 3 && length(p - near.front()) > span) break;
         near.push_back(p);
     }
-    Vec2 mean;
-    for (const Vec2 p : near) mean = mean + p * (1.0 / static_cast<double>(near.size()));
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-    for (const Vec2 p : near) {
-        const Vec2 d = p - mean;
-        xx += d.x * d.x, xy += d.x * d.y, yy += d.y * d.y;
-    }
-    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-    Vec2 outward{std::cos(angle), std::sin(angle)};
+    auto [mean, outward] = fit_line(near);
     if (dot(outward, near.front() - near.back()) < 0.0) outward = -outward;
     return {index, at_start, mean + outward * dot(near.front() - mean, outward), outward};
 }
