@@ -39,7 +39,7 @@ constexpr double kPrecision = 0.2;
 constexpr double kFirstPrecision = 4e-3;     // map scale
 constexpr double kLowerPrecision = 0.25;     // of the precision in use: what makes it worth to begin anew
 constexpr double kMisfitPrecision = 0.02;   // of Huber's threshold
-constexpr double kSettled = 1e-4;  // relative gain of a step below which the iteration ends
+constexpr double kSettled = 1e-3;  // relative gain of a step below which the iteration ends
 
 // The pattern in texels of the map's width, heights in map scale: white 1, black 0.
 Pattern to_texels(const Pattern& pattern, double texel) {
