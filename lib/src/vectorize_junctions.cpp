@@ -190,6 +190,40 @@ Graph make_graph(const Skeleton& skeleton, const Lattice& lattice) {
     return graph;
 }
 
+// Lines that cross at a small angle run as one for a while: two forks with a common stem. Where each prong of the one
+// continues a prong of the other, the stem goes, and the forks become one node.
+void contract_stems(Skeleton& skeleton, const Lattice& lattice) {
+    constexpr double kLongestStem = 14.0;  // in radii of the node
+    std::vector<std::vector<std::pair<int, int>>> touching(skeleton.nodes.size());  // strand, end
+    for (std::size_t s = 0; s < skeleton.strands.size(); ++s)
+        for (int end = 0; end < 2 && !skeleton.strands[s].gone && !skeleton.strands[s].loop; ++end)
+            if (skeleton.strands[s].node[end] >= 0) touching[skeleton.strands[s].node[end]].push_back({static_cast<int>(s), end});
+    for (std::size_t s = 0; s < skeleton.strands.size(); ++s) {
+        Strand& stem = skeleton.strands[s];
+        const int a = stem.node[0], b = stem.node[1];
+        if (stem.gone || stem.loop || a < 0 || b < 0 || a == b || touching[a].size() != 3 || touching[b].size() != 3) continue;
+        const double radius = std::max(skeleton.nodes[a].radius, skeleton.nodes[b].radius);
+        if (static_cast<double>(stem.texels.size()) > kLongestStem * radius) continue;
+        std::vector<Arm> prongs;  // two of a, two of b, all seen from a
+        for (const int node : {a, b})
+            for (const auto& [strand, end] : touching[node])
+                if (strand != static_cast<int>(s))
+                    prongs.push_back(make_arm(skeleton.strands[strand], strand, end, skeleton.nodes[a], lattice));
+        if (prongs.size() != 4) continue;
+        const auto both = [&](int first, int second) {
+            return std::max(continuation_cost(prongs[0], prongs[first]), continuation_cost(prongs[1], prongs[second]));
+        };
+        if (std::min(both(2, 3), both(3, 2)) > 1.0) continue;
+        stem.gone = true;
+        SkeletonNode& node = skeleton.nodes[a];
+        const Vec2 other = skeleton.nodes[b].position + tile_shift(skeleton.nodes[b].position, node.position, lattice);
+        node.radius = std::max(radius, 0.5 * length(other - node.position));
+        node.position = lerp(node.position, other, 0.5);
+        for (const auto& [strand, end] : touching[b]) skeleton.strands[strand].node[end] = a;
+        touching[a].clear(), touching[b].clear();
+    }
+}
+
 const Arm* arm_at(const Graph& graph, int strand, int end) {
     const auto [n, k] = graph.arm_of[strand][end];
     return n < 0 ? nullptr : &graph.joints[n].arms[k];
@@ -358,8 +392,8 @@ void settle_ends(Chain& chain, const Image& response, const Lattice& lattice) {
 
 }  // namespace
 
-std::vector<Chain> join_strands(const Skeleton& skeleton, const Image& response, const Lattice& lattice,
-                                ChainKind kind) {
+std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice, ChainKind kind) {
+    contract_stems(skeleton, lattice);
     const Graph graph = make_graph(skeleton, lattice);
     Builder builder{graph, std::vector<std::uint8_t>(skeleton.strands.size(), 0)};
     std::vector<Chain> chains;

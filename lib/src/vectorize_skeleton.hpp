@@ -35,7 +35,7 @@ Skeleton trace_skeleton(const std::vector<std::uint8_t>& thin, const std::vector
 void measure_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice);
 
 // Pairs the strands that continue each other at nodes and ties the rest.
-std::vector<Chain> join_strands(const Skeleton& skeleton, const Image& response, const Lattice& lattice,
+std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice,
                                 ChainKind kind);
 
 }  // namespace burin::vectorizing
