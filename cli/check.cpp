@@ -90,8 +90,7 @@ ExitCode run_check(const Arguments& arguments) {
     add_heights(report, figures);
     add_edges(report, compare_edges(*heights, map->image, wrap));
     if (bounded) report.add({"passed", "within --max-rms", passed, ""});
-    report.print(arguments);
-    return passed ? ExitCode::done : ExitCode::no;
+    return print_answer(arguments, report, passed ? ExitCode::done : ExitCode::no);
 }
 
 }  // namespace burin::cli

@@ -10,6 +10,7 @@
 #include "asset_file.hpp"
 #include "command.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "report.hpp"
 
 namespace burin::cli {
@@ -145,10 +146,10 @@ ExitCode run_convert(const Arguments& arguments) {
     const auto converted = convert_map(*map, *model, convert_options(arguments, *size), progress);
     if (!converted) return fail(arguments, code_for_input(converted.error()), converted.error().message);
     line.finish();
+    const Report report = describe(arguments, *map, *converted);
     if (const Status written = write_file(output, converted->glb); !written)
         return fail(arguments, code_for_output(written.error()), written.error().message);
-    describe(arguments, *map, *converted).print(arguments);
-    return ExitCode::done;
+    return print_or_remove(arguments, report, output);
 }
 
 }  // namespace burin::cli

@@ -74,8 +74,7 @@ ExitCode describe_asset(const Arguments& arguments) {
         add_pattern(report, key, material, *unpacked);
     }
     report.add_rows(std::move(materials));
-    report.print(arguments);
-    return ExitCode::done;
+    return print_answer(arguments, report, ExitCode::done);
 }
 
 ExitCode describe_map(const Arguments& arguments) {
@@ -103,8 +102,7 @@ ExitCode describe_map(const Arguments& arguments) {
     Rows notes{"notes", "notes", {}};
     for (const std::string& note : map->notes) notes.rows.push_back({{"note", "note", note, ""}});
     report.add_rows(std::move(notes));
-    report.print(arguments);
-    return ExitCode::done;
+    return print_answer(arguments, report, ExitCode::done);
 }
 
 }  // namespace

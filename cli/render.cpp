@@ -12,6 +12,7 @@
 #include "asset_file.hpp"
 #include "command.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "report.hpp"
 
 namespace burin::cli {
@@ -156,8 +157,7 @@ ExitCode run_render(const Arguments& arguments) {
     report.add_group("pixels", "pixels",
                      {{"width", "width", std::int64_t{size->width}, ""},
                       {"height", "height", std::int64_t{size->height}, ""}});
-    report.print(arguments);
-    return ExitCode::done;
+    return print_or_remove(arguments, report, arguments.text("--output"));
 }
 
 }  // namespace burin::cli

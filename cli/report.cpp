@@ -119,11 +119,19 @@ std::string Report::as_json() const {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void Report::print(const Arguments& arguments) const {
+Status Report::print(const Arguments& arguments) const {
     const bool json = arguments.text("--format") == "json";
-    if (!json && arguments.flag("--quiet")) return;
+    if (!json && arguments.flag("--quiet")) return Done{};
     const std::string text = json ? as_json() : as_text();
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    // Whether it arrived shows only when the buffer is written.
+    const bool taken = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    if (taken && std::fflush(stdout) == 0) return Done{};
+    return Error{ErrorCode::io_failed, "standard output cannot be written"};
+}
+
+ExitCode print_answer(const Arguments& arguments, const Report& report, ExitCode answer) {
+    const Status printed = report.print(arguments);
+    return printed ? answer : fail(arguments, code_for_output(printed.error()), printed.error().message);
 }
 
 ProgressLine::ProgressLine(const Arguments& arguments)

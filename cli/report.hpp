@@ -12,9 +12,11 @@
 #include <variant>
 #include <vector>
 
-namespace burin::cli {
+#include <burin/result.hpp>
 
-class Arguments;
+#include "command.hpp"
+
+namespace burin::cli {
 
 struct Field {
     std::string key;    // JSON name
@@ -37,8 +39,9 @@ class Report {
     void add_group(std::string key, std::string label, std::vector<Field> fields);
     void add_rows(Rows rows) { rows_.push_back(std::move(rows)); }
 
-    // Prints to stdout as --format asks; nothing when --quiet is given and the format is text.
-    void print(const Arguments& arguments) const;
+    // Prints to stdout as --format asks, to the last byte; nothing when --quiet is given and the format is text.
+    // Fails with io_failed when standard output does not take it: a full disk, a closed pipe.
+    Status print(const Arguments& arguments) const;
 
   private:
     struct Group {
@@ -53,6 +56,9 @@ class Report {
     std::vector<Group> groups_;
     std::vector<Rows> rows_;
 };
+
+// The end of a command: prints its report and gives `answer`, or ExitCode::output when the report could not be printed.
+ExitCode print_answer(const Arguments& arguments, const Report& report, ExitCode answer);
 
 // One line per stage on stderr: name, share done, seconds. Silent unless stderr is a terminal, or when --quiet.
 class ProgressLine {
