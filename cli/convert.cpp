@@ -119,6 +119,8 @@ ExitCode run_convert(const Arguments& arguments) {
     const std::string output = arguments.text("--output");
     if (!ends_with_glb(output))
         return fail(arguments, ExitCode::usage, "--output '" + output + "' does not end in .glb, the one format written");
+    if (const Status other = check_not_an_input(output, {arguments.file, arguments.text("--model")}); !other)
+        return fail(arguments, ExitCode::usage, other.error().message);
     const auto map = read_map(arguments.file, arguments);
     if (!map) return fail(arguments, code_for_input(map.error()), map.error().message);
 

@@ -145,6 +145,8 @@ ExitCode run_render(const Arguments& arguments) {
     const bool top = arguments.flag("--top");
     if (const Status checked = check_output(arguments.text("--output"), top); !checked)
         return fail(arguments, ExitCode::usage, checked.error().message);
+    if (const Status other = check_not_an_input(arguments.text("--output"), {arguments.file}); !other)
+        return fail(arguments, ExitCode::usage, other.error().message);
     const auto file = read_asset_file(arguments.file);
     if (!file) return fail(arguments, code_for_input(file.error()), file.error().message);
     Status written = Done{};
