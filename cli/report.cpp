@@ -16,16 +16,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json json_object(const std::vector<Field>& fields);
+
 Json json_value(const Field& field) {
-    return std::visit(
-        [](const auto& value) -> Json {
-            // JSON has no infinity and no NaN.
-            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-                if (!std::isfinite(value)) return nullptr;
-            return value;
-        },
-        field.value);
+    struct Value {
+        Json operator()(std::int64_t value) const { return value; }
+        // JSON has no infinity and no NaN.
+        Json operator()(double value) const { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+        Json operator()(bool value) const { return value; }
+        Json operator()(const std::string& value) const { return value; }
+        Json operator()(const std::vector<Field>& fields) const { return json_object(fields); }
+    };
+    return std::visit(Value{}, field.value);
 }
+
+Json json_object(const std::vector<Field>& fields) {
+    Json object = Json::object();
+    for (const Field& field : fields) object[field.key] = json_value(field);
+    return object;
+}
+
+bool holds_fields(const Field& field) { return std::holds_alternative<std::vector<Field>>(field.value); }
+
+std::string joined(const std::vector<Field>& fields);
 
 std::string shown(const Field& field) {
     if (!field.text.empty()) return field.text;
@@ -34,6 +47,7 @@ std::string shown(const Field& field) {
         std::string operator()(double value) const { return number_text(value); }
         std::string operator()(bool value) const { return value ? "yes" : "no"; }
         std::string operator()(const std::string& value) const { return value; }
+        std::string operator()(const std::vector<Field>& fields) const { return joined(fields); }
     };
     return std::visit(Show{}, field.value);
 }
@@ -54,66 +68,54 @@ std::string joined(const std::vector<Field>& fields) {
     return text;
 }
 
-// Rows as columns, each as wide as its widest text; the first field's label heads its column.
-std::string table_text(const Rows& table) {
-    std::string text = table.title.empty() ? "" : table.title + "\n";
-    std::vector<std::size_t> widths;
-    for (const auto& row : table.rows)
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            widths.resize(std::max(widths.size(), i + 1));
-            widths[i] = std::max(widths[i], shown(row[i]).size());
-        }
-    for (const auto& row : table.rows) {
-        std::string line = " ";
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            if (row[i].label.empty()) continue;
-            std::string cell = shown(row[i]);
-            cell.resize(std::max(cell.size(), i + 1 < row.size() ? widths[i] : 0), ' ');
-            line += " " + cell;
-        }
-        text += line + "\n";
-    }
-    return text;
-}
-
 std::string line_text(const std::string& label, const std::string& value) {
     std::string left = label;
     left.resize(std::max<std::size_t>(left.size() + 1, 18), ' ');
     return left + value + "\n";
 }
 
-}  // namespace
-
-void Report::add_group(std::string key, std::string label, std::vector<Field> fields) {
-    groups_.push_back({fields_.size(), std::move(key), std::move(label), std::move(fields)});
+// Rows as columns, each as wide as its widest text.
+std::string table_text(const Rows& table) {
+    std::string text = table.title.empty() ? "" : table.title + "\n";
+    const auto in_column = [](const Field& field) { return !field.label.empty() && !holds_fields(field); };
+    std::vector<std::size_t> widths;
+    for (const auto& row : table.rows)
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            widths.resize(std::max(widths.size(), i + 1));
+            if (in_column(row[i])) widths[i] = std::max(widths[i], shown(row[i]).size());
+        }
+    for (const auto& row : table.rows) {
+        std::string line = " ";
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (!in_column(row[i])) continue;
+            std::string cell = shown(row[i]);
+            const bool last = std::none_of(row.begin() + static_cast<std::ptrdiff_t>(i) + 1, row.end(), in_column);
+            cell.resize(std::max(cell.size(), last ? 0 : widths[i]), ' ');
+            line += " " + cell;
+        }
+        text += line + "\n";
+        for (const Field& field : row)
+            if (!field.label.empty() && holds_fields(field)) text += line_text("    " + field.label, shown(field));
+    }
+    return text;
 }
+
+}  // namespace
 
 std::string Report::as_text() const {
     std::string text;
-    std::size_t next_group = 0;
-    for (std::size_t i = 0; i <= fields_.size(); ++i) {
-        for (; next_group < groups_.size() && groups_[next_group].before == i; ++next_group)
-            if (!groups_[next_group].label.empty())
-                text += line_text(groups_[next_group].label, joined(groups_[next_group].fields));
-        if (i < fields_.size() && !fields_[i].label.empty()) text += line_text(fields_[i].label, shown(fields_[i]));
-    }
+    for (const Field& field : fields_)
+        if (!field.label.empty()) text += line_text(field.label, shown(field));
     for (const Rows& rows : rows_)
         if (!rows.rows.empty()) text += table_text(rows);
     return text;
 }
 
 std::string Report::as_json() const {
-    Json json = Json::object();
-    const auto object = [](const std::vector<Field>& fields) {
-        Json part = Json::object();
-        for (const Field& field : fields) part[field.key] = json_value(field);
-        return part;
-    };
-    json = object(fields_);
-    for (const Group& group : groups_) json[group.key] = object(group.fields);
+    Json json = json_object(fields_);
     for (const Rows& rows : rows_) {
         json[rows.key] = Json::array();
-        for (const auto& row : rows.rows) json[rows.key].push_back(object(row));
+        for (const auto& row : rows.rows) json[rows.key].push_back(json_object(row));
     }
     // Names of files need not be UTF-8; what is not is replaced instead of thrown at.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
