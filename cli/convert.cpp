@@ -72,6 +72,24 @@ void add_counts(Report& report, const ConvertStats& stats) {
                       {"file", "file", count_of(stats.file_bytes), bytes_text(stats.file_bytes)}});
 }
 
+struct Reason {
+    const char* name;      // for JSON
+    const char* sentence;  // for people
+};
+
+// Why the paths were not refined.
+Reason reason_of(Unrefined unrefined) {
+    switch (unrefined) {
+        case Unrefined::no: break;
+        case Unrefined::not_asked: return {"not_asked", "it was not asked for"};
+        case Unrefined::no_paths: return {"no_paths", "there is no path"};
+        case Unrefined::not_path_like: return {"not_path_like", "the map is not path-like"};
+        case Unrefined::too_much_work: return {"too_much_work", "wide profiles on long paths would be too much work"};
+        case Unrefined::no_gain: return {"no_gain", "refined paths explain no more of the map"};
+    }
+    return {"", ""};
+}
+
 Report describe(const Arguments& arguments, const HeightMap& map, const Converted& converted) {
     const ConvertStats& stats = converted.stats;
     Report report;
@@ -90,7 +108,9 @@ Report describe(const Arguments& arguments, const HeightMap& map, const Converte
     report.add({"traced_explained", "", stats.traced_explained, ""});
     report.add({"path_like", "", stats.path_like, ""});
     report.add({"repeat", "", stats.repeat, ""});
-    report.add({"refined", "", stats.refined, ""});
+    const bool refined = stats.unrefined == Unrefined::no;
+    report.add({"refined", "", refined, ""});
+    if (!refined) report.add({"refined_because", "", std::string(reason_of(stats.unrefined).name), ""});
     report.add({"noise", "", stats.noise, ""});
     report.add({"tolerance_texels", "", stats.tolerance, ""});
     report.add({"dropped_paths", "", std::int64_t{stats.dropped_paths}, ""});
@@ -109,6 +129,7 @@ Report describe(const Arguments& arguments, const HeightMap& map, const Converte
              " of its detail; the fallback maps carry the rest");
     if (stats.dropped_paths > 0)
         note(std::to_string(stats.dropped_paths) + " traced paths could not be joined and were left out");
+    if (!refined) note("not refined: " + std::string(reason_of(stats.unrefined).sentence));
     report.add_rows(std::move(notes));
     return report;
 }
