@@ -36,7 +36,7 @@ void add_heights(Report& report, const Comparison& figures) {
     const auto share = [&](const char* key, const char* label, double value) {
         report.add({key, label, value, percent_text(value, 3) + " of range"});
     };
-    report.add({"explained", "explained", figures.explained, number_text(figures.explained)});
+    report.add({"explained", "explained", figures.explained, explained_text(figures.explained)});
     share("rms", "RMS error", figures.rms);
     share("rms_without_smooth", "  smooth removed", figures.rms_without_smooth);
     share("p999", "99.9th percentile", figures.p999);

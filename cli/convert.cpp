@@ -101,7 +101,7 @@ Report describe(const Arguments& arguments, const HeightMap& map, const Converte
                       {"bits", "bits", std::int64_t{map.bit_depth}, ""},
                       {"channel", "channel", map.channel, ""}});
     add_counts(report, stats);
-    report.add({"explained", "explained", stats.explained, number_text(stats.explained)});
+    report.add({"explained", "explained", stats.explained, explained_text(stats.explained)});
     report.add({"rms", "RMS error", stats.rms, percent_text(stats.rms, 3) + " of range"});
     report.add({"p999", "99.9th percentile", stats.p999, percent_text(stats.p999, 3) + " of range"});
     report.add({"path_length_texels", "", stats.path_length_texels, ""});

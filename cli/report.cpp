@@ -171,6 +171,8 @@ std::string bytes_text(std::uint64_t bytes) {
     return format_text("%.1f KiB", static_cast<double>(bytes) / 1024.0);
 }
 
+std::string explained_text(double share) { return format_text("%.4f", std::floor(share * 1e4) / 1e4); }
+
 std::string percent_text(double share, int digits) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f %%", digits, share * 100.0);

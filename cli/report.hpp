@@ -80,6 +80,7 @@ class ProgressLine {
 // Text for people: 4 significant digits; bytes with KiB from 10 KiB on; a share as per cent.
 std::string number_text(double value);
 std::string bytes_text(std::uint64_t bytes);
+std::string explained_text(double share);  // four decimals, rounded down: 1 is all of it and nothing less
 std::string percent_text(double share, int digits = 2);
 
 }  // namespace burin::cli
