@@ -123,9 +123,9 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
 }
 
 // A sixteenth of the map's 8-bit size; above 1024 x 1024 it stays at 63 KiB until that is a 128th, since a map
-// drawn at twice the resolution does not hold twice the paths. Even a tiny map may have a few.
+// drawn at twice the resolution does not hold twice the paths. A small map may be as rich as one of 512 x 512.
 std::size_t default_budget(std::size_t texels) {
-    constexpr std::size_t kLeast = 8192, kUsual = 63 * 1024;
+    constexpr std::size_t kLeast = 16 * 1024, kUsual = 63 * 1024;
     return std::max(kLeast, std::min(texels / 16, std::max(kUsual, texels / 128)));
 }
 

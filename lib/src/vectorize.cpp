@@ -241,7 +241,9 @@ Status check_options(const HeightMap& map, const VectorizeOptions& options) {
 std::size_t element_budget(const Lattice& lattice, const VectorizeOptions& options) {
     if (options.most_elements > 0) return static_cast<std::size_t>(options.most_elements);
     const double bytes = static_cast<double>(lattice.size()) / 16.0;
-    return std::max<std::size_t>(64, static_cast<std::size_t>(std::min(bytes, 60.0 * 1024.0 + bytes / 16.0) / 36.0));
+    // A small map may be as rich as one of 512 x 512.
+    const double most = std::max(16.0 * 1024.0, std::min(bytes, 60.0 * 1024.0 + bytes / 16.0));
+    return static_cast<std::size_t>(most / 36.0);
 }
 
 Wrap choose_wrap(const Image& map, WrapChoice choice) {

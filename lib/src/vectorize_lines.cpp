@@ -351,27 +351,47 @@ std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map
     return kept;
 }
 
-// A letter of broad strokes is lines as a whole or an area as a whole: where a good part of a shape's broad strokes are no
-// lines, the others go as well. `all`: chains before they were judged.
-void drop_partial_shapes(std::vector<Chain>& kept, const std::vector<Chain>& all, const std::vector<std::int32_t>& part,
-                         const Lattice& lattice) {
-    constexpr double kBroadStroke = 3.0, kGoodPart = 0.75;
-    const auto part_of = [&](const Chain& chain) {
-        for (const Vec2 p : chain.points) {
-            const std::int32_t label = part[lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))];
-            if (label >= 0) return label;
-        }
-        return std::int32_t{-1};
-    };
-    std::map<std::int32_t, std::pair<double, double>> energy;  // of all, of those kept
-    for (const Chain& chain : all)
-        if (chain.half_width > kBroadStroke) energy[part_of(chain)].first += chain_energy(chain);
-    for (const Chain& chain : kept)
-        if (chain.half_width > kBroadStroke) energy[part_of(chain)].second += chain_energy(chain);
-    std::erase_if(kept, [&](const Chain& chain) {
-        if (chain.half_width <= kBroadStroke) return false;
-        const auto& [whole, lines] = energy[part_of(chain)];
-        return lines < kGoodPart * whole;
+// A letter of broad strokes is lines as a whole or an area as a whole: where the bands of its lines are not what the mask
+// shows, because strokes are missing or swell and taper, all its broad lines go. `part`: see label_parts.
+void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::int32_t>& part, const Lattice& lattice) {
+    constexpr double kBroadStroke = 2.5, kMostMismatch = 0.1;
+    // 1: within a line's band, a texel of doubt included; 2: well within it.
+    std::vector<std::uint8_t> band(part.size(), 0);
+    std::vector<std::int32_t> part_of(chains.size(), -1);
+    for (std::size_t c = 0; c < chains.size(); ++c)
+        for_each_place(chains[c], [&](Vec2 p, Vec2) {
+            const double half_width = chains[c].half_width;
+            for_each_texel_near(p, lattice, static_cast<int>(std::ceil(half_width + 1.0)), [&](int texel, Vec2 centre) {
+                const double distance = length(centre - p);
+                if (part_of[c] < 0 && distance < 1.0) part_of[c] = part[texel];
+                if (distance > half_width + 1.0) return;
+                band[texel] = std::max<std::uint8_t>(band[texel], distance < half_width - 1.0 ? 2 : 1);
+            });
+        });
+    std::map<std::int32_t, std::pair<double, double>> area;  // of the mask; of what differs
+    for (std::size_t i = 0; i < part.size(); ++i)
+        if (part[i] >= 0) area[part[i]].first += 1.0, area[part[i]].second += band[i] == 0;
+    for (std::size_t c = 0; c < chains.size(); ++c)
+        for_each_place(chains[c], [&](Vec2 p, Vec2) {
+            for_each_texel_near(p, lattice, static_cast<int>(std::ceil(chains[c].half_width)), [&](int texel, Vec2) {
+                if (band[texel] != 2 || part[texel] >= 0 || part_of[c] < 0) return;
+                band[texel] = 0;
+                area[part_of[c]].second += 1.0;
+            });
+        });
+    std::map<std::int32_t, std::pair<double, double>> drawn;  // areas of all lines, of the broad ones
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        const double size = chain_length(chains[c]) * chains[c].half_width;
+        drawn[part_of[c]].first += size;
+        if (chains[c].half_width > kBroadStroke) drawn[part_of[c]].second += size;
+    }
+    std::size_t c = 0;
+    std::erase_if(chains, [&](const Chain& chain) {
+        const std::int32_t label = part_of[c++];
+        const bool is_area = area[label].second > kMostMismatch * area[label].first;
+        // The hairlines of a letter go with its strokes; a net of thin lines does not go with the blobs on it.
+        const bool is_broad = drawn[label].second > 0.5 * drawn[label].first;
+        return is_area && (is_broad || chain.half_width > kBroadStroke);
     });
 }
 
@@ -458,7 +478,7 @@ std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& l
     measure_strands(skeleton, whole, lattice);
     const std::vector<Chain> all = join_strands(skeleton, whole, lattice, kind);
     std::vector<Chain> chains = keep_lines(all, map, lattice, noise, 2e-5 * energy, scale);
-    drop_partial_shapes(chains, all, part, lattice);
+    if (scale.radius == scale.widest) drop_partial_shapes(chains, part, lattice);
     const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
     const std::vector<std::uint8_t> erased = erase_lines(map, response, lattice, chains, owner, kind);
     if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, erased, kind, scale);

@@ -139,7 +139,7 @@ bool prune_spurs(Skeleton& skeleton) {
         const bool free_front = strand.node[0] < 0, free_back = strand.node[1] < 0;
         if (free_front == free_back) continue;
         const SkeletonNode& node = skeleton.nodes[free_front ? strand.node[1] : strand.node[0]];
-        if (texel_length(strand) < 1.5 * node.radius + 1.0) {
+        if (texel_length(strand) < 1.2 * node.radius + 0.5) {
             strand.gone = true;
             changed = true;
         }
