@@ -36,7 +36,7 @@ void add_heights(Report& report, const Comparison& figures) {
     const auto share = [&](const char* key, const char* label, double value) {
         report.add({key, label, value, percent_text(value, 3) + " of range"});
     };
-    report.add({"explained", "explained", figures.explained, number_text(figures.explained)});
+    report.add({"explained", "explained", figures.explained, explained_text(figures.explained)});
     share("rms", "RMS error", figures.rms);
     share("rms_without_smooth", "  smooth removed", figures.rms_without_smooth);
     share("p999", "99.9th percentile", figures.p999);
@@ -90,8 +90,7 @@ ExitCode run_check(const Arguments& arguments) {
     add_heights(report, figures);
     add_edges(report, compare_edges(*heights, map->image, wrap));
     if (bounded) report.add({"passed", "within --max-rms", passed, ""});
-    report.print(arguments);
-    return passed ? ExitCode::done : ExitCode::no;
+    return print_answer(arguments, report, passed ? ExitCode::done : ExitCode::no);
 }
 
 }  // namespace burin::cli

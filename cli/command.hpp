@@ -19,7 +19,7 @@ enum class ExitCode : int {
     no = 1,           // the answer is no: invalid file, error above --max-rms
     usage = 2,        // unknown command or option, value out of its range, missing argument
     input = 3,        // an input cannot be read, is damaged, or is not for this command
-    output = 4,       // the output could not be written; no part of it is left behind
+    output = 4,       // the file or standard output could not be written; no part of the file is left behind
     unavailable = 5,  // needs what this machine or build lacks: an OpenGL context, memory
     bug = 70,         // burin broke its own contract
 };

@@ -10,6 +10,7 @@
 #include "asset_file.hpp"
 #include "command.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "report.hpp"
 
 namespace burin::cli {
@@ -71,6 +72,24 @@ void add_counts(Report& report, const ConvertStats& stats) {
                       {"file", "file", count_of(stats.file_bytes), bytes_text(stats.file_bytes)}});
 }
 
+struct Reason {
+    const char* name;      // for JSON
+    const char* sentence;  // for people
+};
+
+// Why the paths were not refined.
+Reason reason_of(Unrefined unrefined) {
+    switch (unrefined) {
+        case Unrefined::no: break;
+        case Unrefined::not_asked: return {"not_asked", "it was not asked for"};
+        case Unrefined::no_paths: return {"no_paths", "there is no path"};
+        case Unrefined::not_path_like: return {"not_path_like", "the map is not path-like"};
+        case Unrefined::too_much_work: return {"too_much_work", "wide profiles on long paths would be too much work"};
+        case Unrefined::no_gain: return {"no_gain", "refined paths explain no more of the map"};
+    }
+    return {"", ""};
+}
+
 Report describe(const Arguments& arguments, const HeightMap& map, const Converted& converted) {
     const ConvertStats& stats = converted.stats;
     Report report;
@@ -82,14 +101,16 @@ Report describe(const Arguments& arguments, const HeightMap& map, const Converte
                       {"bits", "bits", std::int64_t{map.bit_depth}, ""},
                       {"channel", "channel", map.channel, ""}});
     add_counts(report, stats);
-    report.add({"explained", "explained", stats.explained, number_text(stats.explained)});
+    report.add({"explained", "explained", stats.explained, explained_text(stats.explained)});
     report.add({"rms", "RMS error", stats.rms, percent_text(stats.rms, 3) + " of range"});
     report.add({"p999", "99.9th percentile", stats.p999, percent_text(stats.p999, 3) + " of range"});
     report.add({"path_length_texels", "", stats.path_length_texels, ""});
     report.add({"traced_explained", "", stats.traced_explained, ""});
     report.add({"path_like", "", stats.path_like, ""});
     report.add({"repeat", "", stats.repeat, ""});
-    report.add({"refined", "", stats.refined, ""});
+    const bool refined = stats.unrefined == Unrefined::no;
+    report.add({"refined", "", refined, ""});
+    if (!refined) report.add({"refined_because", "", std::string(reason_of(stats.unrefined).name), ""});
     report.add({"noise", "", stats.noise, ""});
     report.add({"tolerance_texels", "", stats.tolerance, ""});
     report.add({"dropped_paths", "", std::int64_t{stats.dropped_paths}, ""});
@@ -108,6 +129,7 @@ Report describe(const Arguments& arguments, const HeightMap& map, const Converte
              " of its detail; the fallback maps carry the rest");
     if (stats.dropped_paths > 0)
         note(std::to_string(stats.dropped_paths) + " traced paths could not be joined and were left out");
+    if (!refined) note("not refined: " + std::string(reason_of(stats.unrefined).sentence));
     report.add_rows(std::move(notes));
     return report;
 }
@@ -118,6 +140,8 @@ ExitCode run_convert(const Arguments& arguments) {
     const std::string output = arguments.text("--output");
     if (!ends_with_glb(output))
         return fail(arguments, ExitCode::usage, "--output '" + output + "' does not end in .glb, the one format written");
+    if (const Status other = check_not_an_input(output, {arguments.file, arguments.text("--model")}); !other)
+        return fail(arguments, ExitCode::usage, other.error().message);
     const auto map = read_map(arguments.file, arguments);
     if (!map) return fail(arguments, code_for_input(map.error()), map.error().message);
 
@@ -145,10 +169,10 @@ ExitCode run_convert(const Arguments& arguments) {
     const auto converted = convert_map(*map, *model, convert_options(arguments, *size), progress);
     if (!converted) return fail(arguments, code_for_input(converted.error()), converted.error().message);
     line.finish();
+    const Report report = describe(arguments, *map, *converted);
     if (const Status written = write_file(output, converted->glb); !written)
         return fail(arguments, code_for_output(written.error()), written.error().message);
-    describe(arguments, *map, *converted).print(arguments);
-    return ExitCode::done;
+    return print_or_remove(arguments, report, output);
 }
 
 }  // namespace burin::cli

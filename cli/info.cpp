@@ -16,27 +16,28 @@ namespace {
 
 std::int64_t count_of(std::size_t count) { return static_cast<std::int64_t>(count); }
 
-void add_pattern(Report& report, const std::string& key, const MaterialInfo& material, const UnpackedPattern& unpacked) {
+// What a material's pattern holds, as fields of the material's row.
+void add_pattern(std::vector<Field>& row, const MaterialInfo& material, const UnpackedPattern& unpacked) {
     const PathDetail& detail = material.detail;
     const auto& elements = unpacked.pattern.elements;
     const auto quadratics = std::count_if(elements.begin(), elements.end(), [](const ResolvedElement& element) {
         return element.element.kind == ElementKind::quadratic;
     });
     const std::size_t grid_bytes = material.textures.grid.size() * 4, data_bytes = material.textures.data.size() * 4;
-    report.add_group(key + "extent", "extent",
+    row.push_back(group("extent", "extent",
                      {{"u", "u", detail.size_u, number_text(detail.size_u) + " m"},
                       {"v", "v", detail.size_v, number_text(detail.size_v) + " m"},
                       {"depth", "depth", detail.depth, number_text(detail.depth) + " m"},
                       {"base_offset", "base offset", detail.base_offset, number_text(detail.base_offset) + " m"},
                       {"wrap", "wrap", std::string(detail.repeat ? "repeat" : "clamp"), ""},
-                      {"tex_coord", "uv set", std::int64_t{detail.tex_coord}, ""}});
-    report.add_group(key + "elements", "elements",
+                      {"tex_coord", "uv set", std::int64_t{detail.tex_coord}, ""}}));
+    row.push_back(group("elements", "elements",
                      {{"lines", "lines", count_of(elements.size()) - quadratics, ""},
                       {"quadratics", "quadratics", std::int64_t{quadratics}, ""},
                       {"profiles", "profiles", count_of(unpacked.pattern.profiles.size()), ""},
                       {"styles", "styles", count_of(unpacked.pattern.styles.size()), ""},
-                      {"materials", "materials", count_of(unpacked.pattern.materials.size()), ""}});
-    report.add_group(key + "textures", "textures",
+                      {"materials", "materials", count_of(unpacked.pattern.materials.size()), ""}}));
+    row.push_back(group("textures", "textures",
                      {{"grid_width", "", std::int64_t{detail.grid_width}, ""},
                       {"grid_height", "", std::int64_t{detail.grid_height}, ""},
                       {"data_width", "", std::int64_t{detail.data_width}, ""},
@@ -46,7 +47,7 @@ void add_pattern(Report& report, const std::string& key, const MaterialInfo& mat
                            bytes_text(grid_bytes)},
                       {"data_bytes", "data", count_of(data_bytes),
                        std::to_string(detail.data_width) + "x" + std::to_string(detail.data_height) + " RGBA32UI, " +
-                           bytes_text(data_bytes)}});
+                           bytes_text(data_bytes)}}));
 }
 
 ExitCode describe_asset(const Arguments& arguments) {
@@ -59,23 +60,19 @@ ExitCode describe_asset(const Arguments& arguments) {
     report.add({"bytes", "bytes", count_of(file->bytes.size()), bytes_text(file->bytes.size())});
     report.add({"triangles", "triangles", count_of(triangles), ""});
     Rows materials{"materials", "materials", {}};
-    for (std::size_t i = 0; i < file->asset.materials.size(); ++i) {
-        const MaterialInfo& material = file->asset.materials[i];
-        materials.rows.push_back(
-            {{"name", "name", material.name, material.name.empty() ? "(unnamed)" : ""},
-             {"pattern", "pattern", material.has_detail, material.has_detail ? "carries a pattern" : "no pattern"}});
+    for (const MaterialInfo& material : file->asset.materials) {
+        auto& row = materials.rows.emplace_back(std::vector<Field>{
+            {"name", "name", material.name, material.name.empty() ? "(unnamed)" : ""},
+            {"pattern", "pattern", material.has_detail, material.has_detail ? "carries a pattern" : "no pattern"}});
         if (!material.has_detail) continue;
         auto unpacked = unpack_textures(material.textures, material.detail);
         if (!unpacked)
             return fail(arguments, ExitCode::input,
                         "material '" + material.name + "': " + unpacked.error().message);
-        const std::string key = "material_" + std::to_string(i) + "_";
-        report.add({key + "name", "pattern on", material.name, material.name.empty() ? "(unnamed)" : ""});
-        add_pattern(report, key, material, *unpacked);
+        add_pattern(row, material, *unpacked);
     }
     report.add_rows(std::move(materials));
-    report.print(arguments);
-    return ExitCode::done;
+    return print_answer(arguments, report, ExitCode::done);
 }
 
 ExitCode describe_map(const Arguments& arguments) {
@@ -103,8 +100,7 @@ ExitCode describe_map(const Arguments& arguments) {
     Rows notes{"notes", "notes", {}};
     for (const std::string& note : map->notes) notes.rows.push_back({{"note", "note", note, ""}});
     report.add_rows(std::move(notes));
-    report.print(arguments);
-    return ExitCode::done;
+    return print_answer(arguments, report, ExitCode::done);
 }
 
 }  // namespace

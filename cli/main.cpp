@@ -1,4 +1,5 @@
 // burin: the table of commands, and dispatch.
+#include <csignal>
 #include <cstdio>
 
 #include "command.hpp"
@@ -43,6 +44,8 @@ ExitCode dispatch(const Request& request) {
 
 int main(int argc, char** argv) {
     using namespace burin::cli;
+    // A reader that leaves early is a failed write, with its code and without remains; not the end of the program.
+    std::signal(SIGPIPE, SIG_IGN);
     Arguments partial;
     return static_cast<int>(guard(partial, [&] {
         const std::span<const char* const> words(argv, static_cast<std::size_t>(argc));

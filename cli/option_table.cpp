@@ -41,7 +41,7 @@ std::vector<OptionSpec> make_table() {
 
         {"--model", "convert", text, "FILE", "", "", 0, 0, "", false,
          "put the pattern on this glTF, glb or obj; without it, on a rectangle"},
-        {"--material", "convert render check", text, "NAME", "", "", 0, 0, "", false,
+        {"--material", "convert check", text, "NAME", "", "", 0, 0, "", false,
          "which material, where the file has several"},
         {"--size", "convert", extent, "W[xH]", "m", "1", 1e-6, 1e6, "", false,
          "extent of the map along u and v; H follows from the map when left out"},
@@ -69,6 +69,8 @@ std::vector<OptionSpec> make_table() {
          "size of the picture; H follows when left out"},
         {"--top", "render", flag, "", "", "", 0, 0, "", false,
          "heights of the whole pattern from straight above, 1 the surface and 0 the deepest point"},
+        {"--material", "render", text, "NAME", "", "", 0, 0, "", false,
+         "whose heights --top draws, where the file has several; a view shows all"},
         {"--azimuth", "render", number, "DEGREES", "deg", plain(render.camera.azimuth), -360, 360, "", false,
          "where the camera stands around the asset, 0 in front"},
         {"--elevation", "render", number, "DEGREES", "deg", plain(render.camera.elevation), -90, 90, "", false,
@@ -102,6 +104,20 @@ std::vector<OptionSpec> make_table() {
 
 const std::vector<OptionSpec>& option_table() {
     static const std::vector<OptionSpec> table = make_table();
+    return table;
+}
+
+const std::vector<OptionConflict>& option_conflicts() {
+    static const std::vector<OptionConflict> table = {
+        {"render", "--azimuth --elevation --zoom --center --fov --orthographic --eye --target --light --no-shadows",
+         "--top",
+         "heights have neither camera nor light; --size, --samples, --material and --backend go with --top, and without "
+         "--top all of them do"},
+        {"render", "--azimuth --elevation --zoom", "--eye",
+         "the eye is the camera's place; --target, --center and --fov go with it"},
+        {"render", "--center", "--target", "both name the point the camera looks at; one of them works"},
+        {"render", "--fov", "--orthographic", "parallel lines of sight have no angle; --zoom works"},
+    };
     return table;
 }
 

@@ -203,6 +203,15 @@ Status check_required(const Arguments& arguments) {
     return Done{};
 }
 
+Status check_together(const Arguments& arguments) {
+    for (const OptionConflict& conflict : option_conflicts()) {
+        if (arguments.command != conflict.command || !arguments.given(conflict.beside)) continue;
+        for (const std::string& name : split(conflict.names, ' '))
+            if (arguments.given(name)) return refuse(name + " does not go with " + conflict.beside + ": " + conflict.reason);
+    }
+    return Done{};
+}
+
 Result<Request> parse_command(std::span<const char* const> words, const Command& command, Arguments& partial) {
     CLI::App app;
     Collected collected;
@@ -218,6 +227,7 @@ Result<Request> parse_command(std::span<const char* const> words, const Command&
     if (const Status taken = take_values(collected, partial); !taken) return taken.error();
     if (const Status taken = take_files(app.remaining(), command, partial); !taken) return taken.error();
     if (const Status complete = check_required(partial); !complete) return complete.error();
+    if (const Status fitting = check_together(partial); !fitting) return fitting.error();
     return Request{Request::Kind::run, partial};
 }
 

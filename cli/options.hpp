@@ -45,6 +45,15 @@ struct OptionSpec {
 // Every option of every command, in the order --help shows them.
 const std::vector<OptionSpec>& option_table();
 
+// Options that would change nothing beside another one, and are therefore refused with it.
+struct OptionConflict {
+    const char* command;
+    const char* names;   // separated by spaces
+    const char* beside;  // the option that leaves them without effect
+    const char* reason;  // ends the message: why, and what would work
+};
+const std::vector<OptionConflict>& option_conflicts();
+
 // What the user asked for, checked. Values are asked for by the option's long name; asking for a name that the table
 // does not give to this command is a bug and asserts.
 class Arguments {
@@ -68,8 +77,8 @@ struct Request {
     Arguments arguments;
 };
 
-// Fails with invalid_argument: unknown command or option, missing or malformed value, value out of range. The message
-// names the option, the value, and what would work. `partial` receives the command's name even then, so that the
+// Fails with invalid_argument: unknown command or option, missing or malformed value, value out of range, options that do
+// not go together. The message names the option, the value, and what would work. `partial` receives the command's name even then, so that the
 // error can be reported under it.
 Result<Request> parse_arguments(std::span<const char* const> argv, std::span<const Command> commands,
                                 Arguments& partial);

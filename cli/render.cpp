@@ -1,5 +1,6 @@
 // burin render: a picture of an asset as its shader draws it, or its heights from straight above.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -11,6 +12,7 @@
 #include "asset_file.hpp"
 #include "command.hpp"
 #include "options.hpp"
+#include "output_file.hpp"
 #include "report.hpp"
 
 namespace burin::cli {
@@ -93,8 +95,40 @@ Result<PictureSize> draw_heights(const Arguments& arguments, const Asset& asset,
     return size;
 }
 
+// Middle of the box around the asset: where the camera looks unless told.
+std::array<double, 3> middle_of(const Asset& asset) {
+    std::array<double, 3> low, high;
+    low.fill(HUGE_VAL);
+    high.fill(-HUGE_VAL);
+    for (const Primitive& primitive : asset.primitives)
+        for (const std::uint32_t vertex : primitive.indices)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double place{primitive.positions[3 * vertex + axis]};
+                low[axis] = std::min(low[axis], place);
+                high[axis] = std::max(high[axis], place);
+            }
+    return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
+}
+
+// An eye at the very point it looks at sees in no direction. With --center the point lies on the surface, which only an
+// eye on the surface could meet.
+Status check_camera(const Camera& camera, const Asset& asset) {
+    if (!camera.eye || camera.center) return Done{};
+    const std::array<double, 3> target = camera.target ? *camera.target : middle_of(asset);
+    const double distance =
+        std::hypot((*camera.eye)[0] - target[0], (*camera.eye)[1] - target[1], (*camera.eye)[2] - target[2]);
+    if (!(distance <= 1e-9)) return Done{};
+    return Error{ErrorCode::invalid_argument,
+                 std::string("--eye is the point the camera looks at, ") +
+                     (camera.target ? "--target" : "the middle of the asset") + "; two different points work"};
+}
+
 Result<PictureSize> draw_view(const Arguments& arguments, const Asset& asset, Status& written) {
+    // A view shows every material; a name that no pattern has is a mistake all the same.
+    if (arguments.given("--material"))
+        if (const auto found = find_patterned_material(asset, arguments.text("--material")); !found) return found.error();
     const RenderOptions options = render_options(arguments);
+    if (const Status placed = check_camera(options.camera, asset); !placed) return placed.error();
     const auto picture = render_asset(asset, options);
     if (!picture) return picture.error();
     written = write_png(arguments.text("--output"), *picture);
@@ -111,6 +145,8 @@ ExitCode run_render(const Arguments& arguments) {
     const bool top = arguments.flag("--top");
     if (const Status checked = check_output(arguments.text("--output"), top); !checked)
         return fail(arguments, ExitCode::usage, checked.error().message);
+    if (const Status other = check_not_an_input(arguments.text("--output"), {arguments.file}); !other)
+        return fail(arguments, ExitCode::usage, other.error().message);
     const auto file = read_asset_file(arguments.file);
     if (!file) return fail(arguments, code_for_input(file.error()), file.error().message);
     Status written = Done{};
@@ -123,8 +159,7 @@ ExitCode run_render(const Arguments& arguments) {
     report.add_group("pixels", "pixels",
                      {{"width", "width", std::int64_t{size->width}, ""},
                       {"height", "height", std::int64_t{size->height}, ""}});
-    report.print(arguments);
-    return ExitCode::done;
+    return print_or_remove(arguments, report, arguments.text("--output"));
 }
 
 }  // namespace burin::cli

@@ -16,16 +16,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json json_object(const std::vector<Field>& fields);
+
 Json json_value(const Field& field) {
-    return std::visit(
-        [](const auto& value) -> Json {
-            // JSON has no infinity and no NaN.
-            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-                if (!std::isfinite(value)) return nullptr;
-            return value;
-        },
-        field.value);
+    struct Value {
+        Json operator()(std::int64_t value) const { return value; }
+        // JSON has no infinity and no NaN.
+        Json operator()(double value) const { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+        Json operator()(bool value) const { return value; }
+        Json operator()(const std::string& value) const { return value; }
+        Json operator()(const std::vector<Field>& fields) const { return json_object(fields); }
+    };
+    return std::visit(Value{}, field.value);
 }
+
+Json json_object(const std::vector<Field>& fields) {
+    Json object = Json::object();
+    for (const Field& field : fields) object[field.key] = json_value(field);
+    return object;
+}
+
+bool holds_fields(const Field& field) { return std::holds_alternative<std::vector<Field>>(field.value); }
+
+std::string joined(const std::vector<Field>& fields);
 
 std::string shown(const Field& field) {
     if (!field.text.empty()) return field.text;
@@ -34,6 +47,7 @@ std::string shown(const Field& field) {
         std::string operator()(double value) const { return number_text(value); }
         std::string operator()(bool value) const { return value ? "yes" : "no"; }
         std::string operator()(const std::string& value) const { return value; }
+        std::string operator()(const std::vector<Field>& fields) const { return joined(fields); }
     };
     return std::visit(Show{}, field.value);
 }
@@ -54,76 +68,72 @@ std::string joined(const std::vector<Field>& fields) {
     return text;
 }
 
-// Rows as columns, each as wide as its widest text; the first field's label heads its column.
-std::string table_text(const Rows& table) {
-    std::string text = table.title.empty() ? "" : table.title + "\n";
-    std::vector<std::size_t> widths;
-    for (const auto& row : table.rows)
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            widths.resize(std::max(widths.size(), i + 1));
-            widths[i] = std::max(widths[i], shown(row[i]).size());
-        }
-    for (const auto& row : table.rows) {
-        std::string line = " ";
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            if (row[i].label.empty()) continue;
-            std::string cell = shown(row[i]);
-            cell.resize(std::max(cell.size(), i + 1 < row.size() ? widths[i] : 0), ' ');
-            line += " " + cell;
-        }
-        text += line + "\n";
-    }
-    return text;
-}
-
 std::string line_text(const std::string& label, const std::string& value) {
     std::string left = label;
     left.resize(std::max<std::size_t>(left.size() + 1, 18), ' ');
     return left + value + "\n";
 }
 
-}  // namespace
-
-void Report::add_group(std::string key, std::string label, std::vector<Field> fields) {
-    groups_.push_back({fields_.size(), std::move(key), std::move(label), std::move(fields)});
+// Rows as columns, each as wide as its widest text.
+std::string table_text(const Rows& table) {
+    std::string text = table.title.empty() ? "" : table.title + "\n";
+    const auto in_column = [](const Field& field) { return !field.label.empty() && !holds_fields(field); };
+    std::vector<std::size_t> widths;
+    for (const auto& row : table.rows)
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            widths.resize(std::max(widths.size(), i + 1));
+            if (in_column(row[i])) widths[i] = std::max(widths[i], shown(row[i]).size());
+        }
+    for (const auto& row : table.rows) {
+        std::string line = " ";
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            if (!in_column(row[i])) continue;
+            std::string cell = shown(row[i]);
+            const bool last = std::none_of(row.begin() + static_cast<std::ptrdiff_t>(i) + 1, row.end(), in_column);
+            cell.resize(std::max(cell.size(), last ? 0 : widths[i]), ' ');
+            line += " " + cell;
+        }
+        text += line + "\n";
+        for (const Field& field : row)
+            if (!field.label.empty() && holds_fields(field)) text += line_text("    " + field.label, shown(field));
+    }
+    return text;
 }
+
+}  // namespace
 
 std::string Report::as_text() const {
     std::string text;
-    std::size_t next_group = 0;
-    for (std::size_t i = 0; i <= fields_.size(); ++i) {
-        for (; next_group < groups_.size() && groups_[next_group].before == i; ++next_group)
-            if (!groups_[next_group].label.empty())
-                text += line_text(groups_[next_group].label, joined(groups_[next_group].fields));
-        if (i < fields_.size() && !fields_[i].label.empty()) text += line_text(fields_[i].label, shown(fields_[i]));
-    }
+    for (const Field& field : fields_)
+        if (!field.label.empty()) text += line_text(field.label, shown(field));
     for (const Rows& rows : rows_)
         if (!rows.rows.empty()) text += table_text(rows);
     return text;
 }
 
 std::string Report::as_json() const {
-    Json json = Json::object();
-    const auto object = [](const std::vector<Field>& fields) {
-        Json part = Json::object();
-        for (const Field& field : fields) part[field.key] = json_value(field);
-        return part;
-    };
-    json = object(fields_);
-    for (const Group& group : groups_) json[group.key] = object(group.fields);
+    Json json = json_object(fields_);
     for (const Rows& rows : rows_) {
         json[rows.key] = Json::array();
-        for (const auto& row : rows.rows) json[rows.key].push_back(object(row));
+        for (const auto& row : rows.rows) json[rows.key].push_back(json_object(row));
     }
     // Names of files need not be UTF-8; what is not is replaced instead of thrown at.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void Report::print(const Arguments& arguments) const {
+Status Report::print(const Arguments& arguments) const {
     const bool json = arguments.text("--format") == "json";
-    if (!json && arguments.flag("--quiet")) return;
+    if (!json && arguments.flag("--quiet")) return Done{};
     const std::string text = json ? as_json() : as_text();
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    // Whether it arrived shows only when the buffer is written.
+    const bool taken = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    if (taken && std::fflush(stdout) == 0) return Done{};
+    return Error{ErrorCode::io_failed, "standard output cannot be written"};
+}
+
+ExitCode print_answer(const Arguments& arguments, const Report& report, ExitCode answer) {
+    const Status printed = report.print(arguments);
+    return printed ? answer : fail(arguments, code_for_output(printed.error()), printed.error().message);
 }
 
 ProgressLine::ProgressLine(const Arguments& arguments)
@@ -160,6 +170,8 @@ std::string bytes_text(std::uint64_t bytes) {
     if (bytes < 10240) return std::to_string(bytes) + " bytes";
     return format_text("%.1f KiB", static_cast<double>(bytes) / 1024.0);
 }
+
+std::string explained_text(double share) { return format_text("%.4f", std::floor(share * 1e4) / 1e4); }
 
 std::string percent_text(double share, int digits) {
     char text[64];

@@ -64,8 +64,7 @@ ExitCode run_validate(const Arguments& arguments) {
     report.add({"warnings", "warnings", counts[1], ""});
     report.add({"remarks", "remarks", counts[2], ""});
     report.add_rows(std::move(findings));
-    report.print(arguments);
-    return valid ? ExitCode::done : ExitCode::no;
+    return print_answer(arguments, report, valid ? ExitCode::done : ExitCode::no);
 }
 
 }  // namespace burin::cli

@@ -186,21 +186,26 @@ bool can_afford_refinement(const Pattern& pattern, const Image& map) {
     return work <= kMostTexels;
 }
 
+Unrefined reason_not_to_refine(const Candidate& candidate, const HeightMap& map, const ConvertOptions& options) {
+    if (!options.refine) return Unrefined::not_asked;
+    if (candidate.traced.pattern.paths.empty()) return Unrefined::no_paths;
+    if (!candidate.stats.path_like) return Unrefined::not_path_like;
+    return can_afford_refinement(candidate.traced.pattern, map.image) ? Unrefined::no : Unrefined::too_much_work;
+}
+
 // Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
 Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
-    if (!options.refine || candidate.traced.pattern.paths.empty()) return candidate;
-    // Where the paths are not what the map is made of, their exact place shows nothing.
-    if (!candidate.stats.path_like) return candidate;
-    if (!can_afford_refinement(candidate.traced.pattern, map.image)) return candidate;
+    candidate.stats.unrefined = reason_not_to_refine(candidate, map, options);
+    if (candidate.stats.unrefined != Unrefined::no) return candidate;
     if (!clock.begin("refine")) return stopped();
+    candidate.stats.unrefined = Unrefined::no_gain;
     RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
     Vectorized refined = candidate.traced;
     if (!refine_pattern(refined.pattern, map.image, refinement)) return candidate;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
     if (!better || better->stats.explained < candidate.stats.explained) return candidate;
-    better->stats.refined = true;
     return better;
 }
 

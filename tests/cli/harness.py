@@ -23,17 +23,18 @@ class Outcome:
         return f"$ burin {command}\nstatus {self.status} after {self.seconds:.1f} s\n{self.stdout}{self.stderr}"
 
 
-def run(burin, arguments, timeout=120, folder=None, environment=None):
-    """Runs burin with a limit of time; a status of 'timeout' says that the limit was passed."""
+def run(burin, arguments, timeout=120, folder=None, environment=None, stdout=subprocess.PIPE):
+    """Runs burin with a limit of time; a status of 'timeout' says that the limit was passed. What goes to a `stdout` of
+    the caller's is not in the outcome."""
     begun = time.monotonic()
     try:
-        done = subprocess.run([burin] + arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        done = subprocess.run([burin] + arguments, stdin=subprocess.DEVNULL, stdout=stdout,
                               stderr=subprocess.PIPE, timeout=timeout, cwd=folder,
                               env=dict(os.environ, **(environment or {})), check=False)
         status, out, err = done.returncode, done.stdout, done.stderr
     except subprocess.TimeoutExpired as expired:
         status, out, err = "timeout", expired.stdout or b"", expired.stderr or b""
-    text = [part.decode("utf-8", "replace") for part in (out, err)]
+    text = [(part or b"").decode("utf-8", "replace") for part in (out, err)]
     return Outcome(arguments, status, *text, time.monotonic() - begun)
 
 

@@ -7,6 +7,8 @@ A case:
                 {asset} a glb converted from groove.png
     status      exit code
     stdout      regular expressions that each match; an empty list: nothing may be printed
+                with `--format json` among the words and a status of 0 or 1, stdout must, besides, be JSON with the
+                keys of cli/JSON.md
     stderr      the same; a status other than 0 and 1 must, besides, give one line of the documented error form
     files       names in {out} that must exist afterwards; everything else in {out} is a failure
     environment variables to set
@@ -17,6 +19,7 @@ import json
 import os
 import re
 
+import documented_keys
 import harness
 import inputs
 
@@ -35,6 +38,20 @@ def check_text(verdicts, case, what, patterns, text, outcome):
         verdicts.expect(re.search(pattern, text, re.M), f"{case['name']}: {what} matches {pattern!r}", outcome)
 
 
+def asks_for_json(words):
+    return "json" in [after for word, after in zip(words, words[1:]) if word == "--format"]
+
+
+def check_json(verdicts, case, outcome):
+    try:
+        result = json.loads(outcome.stdout)
+    except ValueError as fault:
+        verdicts.expect(False, f"{case['name']}: stdout is JSON, but {fault}", outcome)
+        return
+    different = list(documented_keys.differences(case["arguments"][0], result))
+    verdicts.expect(not different, f"{case['name']}: keys as documented, but {different}", outcome)
+
+
 def run_case(verdicts, burin, case, places, folder):
     out = os.path.join(folder, "out_" + re.sub(r"\W", "_", case["name"]))
     os.mkdir(out)
@@ -44,6 +61,8 @@ def run_case(verdicts, burin, case, places, folder):
     verdicts.expect(outcome.status == case["status"], f"{case['name']}: status is {case['status']}", outcome)
     check_text(verdicts, case, "stdout", case.get("stdout"), outcome.stdout, outcome)
     check_text(verdicts, case, "stderr", case.get("stderr"), outcome.stderr, outcome)
+    if case["status"] in (0, 1) and asks_for_json(arguments):
+        check_json(verdicts, case, outcome)
     if case["status"] not in (0, 1):
         verdicts.expect(harness.one_line_error(outcome), f"{case['name']}: one line of error", outcome)
         verdicts.expect(outcome.stdout == "", f"{case['name']}: nothing on stdout", outcome)

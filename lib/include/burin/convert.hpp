@@ -42,12 +42,22 @@ struct ConvertOptions {
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
 
+// Why the pattern was not refined, or the refined one not kept.
+enum class Unrefined {
+    no,             // it was refined
+    not_asked,      // ConvertOptions::refine is false
+    no_paths,       // there is nothing to move
+    not_path_like,  // the paths are not what the map is made of: their exact place shows nothing
+    too_much_work,  // wide profiles on long paths
+    no_gain,        // the refined pattern explained less, or could not be stored
+};
+
 struct ConvertStats {
     // The pattern as stored: elements after splitting at steps and borders.
     int paths = 0, lines = 0, quadratics = 0, profiles = 0, cells = 0;
     int dropped_paths = 0;                // could not be resolved
     std::size_t grid_bytes = 0, data_bytes = 0, file_bytes = 0;
-    bool refined = false;                 // the refinement ran and was kept
+    Unrefined unrefined = Unrefined::no;  // whether the refinement ran and was kept, and why not
     double noise = 0.0;                   // standard deviation of the map's grain, of its range
     double tolerance = 0.0;               // of the fit, texels
     double path_length_texels = 0.0;      // of all stored elements together
