@@ -124,7 +124,10 @@ void fill_starts(const Frame& frame, CellGrid& grid) {
             if (frame.pattern.styles[e.style].step) steps.push_back(copy_at(frame, e.element, centre));
         }
         double farthest = -1.0;
-        for (std::uint32_t start = 0; start < kStarts && farthest < enough; ++start) {
+        // The centre comes last: in drawn patterns it lies on one line with corners and with a picture's samples, and
+        // a walk through a corner where several lines meet is decided by rounding.
+        for (std::uint32_t i = 1; i <= kStarts && farthest < enough; ++i) {
+            const std::uint32_t start = i % kStarts;
             const Vec2 p = frame.start(k, start);
             double clear = 1e300;
             for (const Element& e : steps)

@@ -18,7 +18,7 @@
 //   - every step element whose arc passes through the margin rectangle; then the cell has BURIN_CELL_FLAG_STEP.
 // So the ground at p follows from the cell alone: on the straight way from the cell's start to p, the arc of a listed step
 // that is crossed last gives the level of the side walked to; none crossed: `level`. Without the flag the ground is
-// `level` everywhere. The start is the first of 16 points, the centre before all, that no listed step comes near.
+// `level` everywhere. The start is the first of 16 points, the centre after all others, that no listed step comes near.
 // TIGHT. An element is listed only where its path line, widened by its reach there (profile, width scale, mitre
 // tip, cap), comes nearer to the margin rectangle than a thousandth of a cell.
 #pragma once
