@@ -158,7 +158,19 @@ std::vector<std::size_t> region_of(const Frame& frame, const CellGrid& grid, std
     return region;
 }
 
-// No step lies between two cells without STEP that share a side, so their whole region has one level.
+// What most answers say; of equally many, the lowest.
+double most_frequent(std::vector<double> answers) {
+    std::sort(answers.begin(), answers.end());
+    std::size_t most = 0, best = 0;
+    for (std::size_t from = 0, to = 0; from < answers.size(); from = to) {
+        while (to < answers.size() && answers[to] == answers[from]) ++to;
+        if (to - from > most) most = to - from, best = from;
+    }
+    return answers[best];
+}
+
+// No step lies between two cells without STEP that share a side, so their whole region has one level. Places all over it
+// are asked: beside a step whose line has a gap, the answer may be that of its other side.
 void fill_levels(const Frame& frame, CellGrid& grid) {
     const Ground ground(frame.pattern);
     const auto ask = [&](std::size_t k) { return ground.at(frame.start(k, grid.start[k])).level; };
@@ -168,8 +180,13 @@ void fill_levels(const Frame& frame, CellGrid& grid) {
         if ((grid.flags[k] & BURIN_CELL_FLAG_STEP) != 0) {
             grid.level[k] = ask(k);
         } else if (!taken[k]) {
-            const double level = ask(k);
-            for (const std::size_t cell : region_of(frame, grid, k, taken)) grid.level[cell] = level;
+            constexpr std::size_t kAsked = 64;
+            const std::vector<std::size_t> region = region_of(frame, grid, k, taken);
+            std::vector<double> answers;
+            for (std::size_t i = 0; i < region.size(); i += 1 + region.size() / kAsked)
+                answers.push_back(ask(region[i]));
+            const double level = most_frequent(std::move(answers));
+            for (const std::size_t cell : region) grid.level[cell] = level;
         }
     }
 }
