@@ -19,11 +19,11 @@
 #define BURIN_MAX_LENGTH 1.0e9
 
 // ---- grid texture: RG32UI, one texel per cell, row-major, cell (0,0) at uv (0,0) --------------------------
-// x: bits 0-19 first reference (index of a 16-bit reference, see lists; 0 when count is 0), 20-25 count, 26-29 skip,
-//    30-31 flags
-// y: bits 0-15 level at the cell's centre (UNORM16 of the height range), 16-23 highest, 24-31 lowest (UNORM8)
+// x: bits 0-19 first reference (index of a 16-bit reference, see lists; 0 when count is 0), 20-25 count, 26-29 skip, or
+//    start with STEP, 30-31 flags
+// y: bits 0-15 level at the cell's start (UNORM16 of the height range), 16-23 highest, 24-31 lowest (UNORM8)
 // skip s: every cell (i + dx, j + dy) with |dx| <= s and |dy| <= s lists nothing and has this cell's level (indices wrap
-// when the pattern repeats); 0 where the cell lists something.
+// when the pattern repeats); 0 where the cell lists something. start: below.
 #define BURIN_CELL_FIRST_BITS 20
 #define BURIN_CELL_COUNT_BITS 6
 #define BURIN_CELL_SKIP_BITS 4
@@ -31,8 +31,15 @@
 // STEP: the path line of a step passes through the cell, so that its level varies.
 #define BURIN_CELL_FLAG_ISOLATED 1u
 #define BURIN_CELL_FLAG_STEP 2u
-// Ground at p in a cell with STEP: walk from the cell's centre to p; the step path line crossed last (of the cell's list)
+// Ground at p in a cell with STEP: walk from the cell's start to p; the step path line crossed last (of the cell's list)
 // gives the level of the side walked to; none crossed: the cell's level. Without STEP: the cell's level.
+// Start k, 0 to 15, is one of 16 points spread over the cell, 0 its centre; the writer takes one that no step is near.
+// It lies ((k * FACTOR + HALF) mod STEPS - HALF) / SPREAD cell sides from the centre, along u and along v.
+#define BURIN_START_FACTOR_U 771
+#define BURIN_START_FACTOR_V 582
+#define BURIN_START_HALF 510
+#define BURIN_START_STEPS 1021
+#define BURIN_START_SPREAD 1361.0
 
 // ---- data texture: RGBA32UI; sections elements, styles, profiles, materials, lists, each starting on a texel -
 // Element, texel A:

@@ -39,7 +39,8 @@ void check_cell(const GridView& grid, const CellCode& c, const std::string& plac
     if (c.count == 0 && (c.flags & BURIN_CELL_FLAG_STEP) != 0) {
         reporter.report(3003, "lists nothing but has flag STEP", place);
     }
-    if (c.count != 0 && c.skip != 0) {
+    // With STEP the bits name the start of the walk instead.
+    if (c.count != 0 && c.skip != 0 && (c.flags & BURIN_CELL_FLAG_STEP) == 0) {
         reporter.report(3004,
                         "lists " + text(c.count) + " elements but has skip " + text(c.skip) + ", 0 is needed",
                         place);

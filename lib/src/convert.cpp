@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 
 #include <burin/compare.hpp>
 #include <burin/rasterize.hpp>
@@ -69,6 +70,9 @@ constexpr double kAccidentShare = 0.1;
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
                ConvertStats& stats) {
     const auto unpacked = unpack_textures(textures, detail);
+    // What burin packed breaks the format: a bug, whatever the map.
+    if (!unpacked && unpacked.error().code == ErrorCode::invalid_input)
+        throw std::logic_error("the packed pattern breaks the format: " + unpacked.error().message);
     if (!unpacked) return unpacked.error();
     RasterizeOptions options;
     options.threads = threads;

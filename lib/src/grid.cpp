@@ -104,22 +104,6 @@ Frame frame_of(const ResolvedPattern& pattern, const Limits& limits, double cell
     return {pattern, cols, rows, margin, {pattern.size.x / cols, pattern.size.y / rows}};
 }
 
-// A few more columns or rows where a step would run along cell centres: then their level would hang on
-// rounding.
-Frame with_clear_centres(const Frame& frame) {
-    int fewest = doubtful_centres(frame), cols = frame.cols, rows = frame.rows;
-    const auto grown = [&](int c, int r) {
-        return Frame{frame.pattern, c, r, frame.margin, {frame.pattern.size.x / c, frame.pattern.size.y / r}};
-    };
-    for (int more = 1; more < 25 && fewest > 0; ++more) {
-        const int c = std::min(frame.cols + more % 5, BURIN_MAX_TEXTURE_SIDE),
-                  r = std::min(frame.rows + more / 5, BURIN_MAX_TEXTURE_SIDE);
-        const int count = doubtful_centres(grown(c, r));
-        if (count < fewest) fewest = count, cols = c, rows = r;
-    }
-    return grown(cols, rows);
-}
-
 double cheapest_size(const ResolvedPattern& pattern, const GridOptions& options) {
     const std::vector<Feature> features = features_of(pattern);
     const double largest = std::max(pattern.size.x, pattern.size.y);
@@ -213,8 +197,7 @@ Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& o
     const bool chosen = options.cell_size > 0.0;
     double cell = chosen ? options.cell_size : cheapest_size(pattern, options);
     const auto try_size = [&](double side) {
-        return try_frame(with_clear_centres(frame_of(pattern, *limits, side, options.margin)), chain,
-                         options.threads);
+        return try_frame(frame_of(pattern, *limits, side, options.margin), chain, options.threads);
     };
     std::optional<Trial> trial(try_size(cell));
     Fullest refused;

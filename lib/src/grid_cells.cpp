@@ -100,22 +100,95 @@ void flag_steps(const std::vector<std::vector<Hit>>& hits, CellGrid& grid) {
             if (hit.path_line) grid.flags[hit.cell] |= BURIN_CELL_FLAG_STEP;
 }
 
-// Neighbouring cells without a step lie in one region; the others ask.
+// The copy of a listed element that acts in a cell (grid.hpp).
+Element copy_at(const Frame& frame, const Element& element, Vec2 centre) {
+    if (!frame.repeats()) return element;
+    const Vec2 size = frame.pattern.size, gap = centre - lerp(element.p0, element.p2, 0.5);
+    return curve::translated(
+        element, {size.x * std::floor(gap.x / size.x + 0.5), size.y * std::floor(gap.y / size.y + 0.5)});
+}
+
+// Where the walk to a point of a cell begins: clear of every step, so that the side it lies on is beyond the doubt
+// of quantized positions and of a reader's floats.
+void fill_starts(const Frame& frame, CellGrid& grid) {
+    constexpr std::uint32_t kStarts = 1u << BURIN_CELL_SKIP_BITS;
+    const double enough = std::min(frame.cell.x, frame.cell.y) / 50.0;
+    grid.start.assign(grid.flags.size(), 0);
+    std::vector<Element> steps;
+    for (std::size_t k = 0; k < grid.flags.size(); ++k) {
+        if ((grid.flags[k] & BURIN_CELL_FLAG_STEP) == 0) continue;
+        const Vec2 centre = frame.start(k, 0);
+        steps.clear();
+        for (std::uint32_t r = grid.first_ref[k]; r < grid.first_ref[k + 1]; ++r) {
+            const ResolvedElement& e = frame.pattern.elements[grid.refs[r]];
+            if (frame.pattern.styles[e.style].step) steps.push_back(copy_at(frame, e.element, centre));
+        }
+        double farthest = -1.0;
+        // The centre comes last: in drawn patterns it lies on one line with corners and with a picture's samples, and
+        // a walk through a corner where several lines meet is decided by rounding.
+        for (std::uint32_t i = 1; i <= kStarts && farthest < enough; ++i) {
+            const std::uint32_t start = i % kStarts;
+            const Vec2 p = frame.start(k, start);
+            double clear = 1e300;
+            for (const Element& e : steps)
+                clear = std::min(clear, length(p - curve::point(e, curve::nearest(e, p))));
+            if (clear > farthest) farthest = clear, grid.start[k] = static_cast<std::uint8_t>(start);
+        }
+    }
+}
+
+// Cells without a step that share a side, one after the other from `seed`.
+std::vector<std::size_t> region_of(const Frame& frame, const CellGrid& grid, std::size_t seed,
+                                   std::vector<char>& taken) {
+    const std::size_t cols = static_cast<std::size_t>(frame.cols), rows = static_cast<std::size_t>(frame.rows);
+    std::vector<std::size_t> region{seed};
+    taken[seed] = 1;
+    const auto take = [&](std::size_t k) {
+        if (taken[k] || (grid.flags[k] & BURIN_CELL_FLAG_STEP) != 0) return;
+        taken[k] = 1;
+        region.push_back(k);
+    };
+    for (std::size_t i = 0; i < region.size(); ++i) {
+        const std::size_t col = region[i] % cols, row = region[i] / cols;
+        if (frame.repeats() || col > 0) take(row * cols + (col + cols - 1) % cols);
+        if (frame.repeats() || col + 1 < cols) take(row * cols + (col + 1) % cols);
+        if (frame.repeats() || row > 0) take((row + rows - 1) % rows * cols + col);
+        if (frame.repeats() || row + 1 < rows) take((row + 1) % rows * cols + col);
+    }
+    return region;
+}
+
+// What most answers say; of equally many, the lowest.
+double most_frequent(std::vector<double> answers) {
+    std::sort(answers.begin(), answers.end());
+    std::size_t most = 0, best = 0;
+    for (std::size_t from = 0, to = 0; from < answers.size(); from = to) {
+        while (to < answers.size() && answers[to] == answers[from]) ++to;
+        if (to - from > most) most = to - from, best = from;
+    }
+    return answers[best];
+}
+
+// No step lies between two cells without STEP that share a side, so their whole region has one level. Places all over it
+// are asked: beside a step whose line has a gap, the answer may be that of its other side.
 void fill_levels(const Frame& frame, CellGrid& grid) {
     const Ground ground(frame.pattern);
-    const auto has_step = [&](std::size_t k) { return (grid.flags[k] & BURIN_CELL_FLAG_STEP) != 0; };
+    const auto ask = [&](std::size_t k) { return ground.at(frame.start(k, grid.start[k])).level; };
     grid.level.assign(grid.flags.size(), 0.0);
-    const std::size_t cols = static_cast<std::size_t>(frame.cols);
-    for (int row = 0; row < frame.rows; ++row)
-        for (int col = 0; col < frame.cols; ++col) {
-            const std::size_t k = static_cast<std::size_t>(row) * cols + static_cast<std::size_t>(col);
-            if (!has_step(k) && col > 0 && !has_step(k - 1))
-                grid.level[k] = grid.level[k - 1];
-            else if (!has_step(k) && row > 0 && !has_step(k - cols))
-                grid.level[k] = grid.level[k - cols];
-            else
-                grid.level[k] = ground.at(frame.centre(col, row)).level;
+    std::vector<char> taken(grid.flags.size(), 0);
+    for (std::size_t k = 0; k < grid.flags.size(); ++k) {
+        if ((grid.flags[k] & BURIN_CELL_FLAG_STEP) != 0) {
+            grid.level[k] = ask(k);
+        } else if (!taken[k]) {
+            constexpr std::size_t kAsked = 64;
+            const std::vector<std::size_t> region = region_of(frame, grid, k, taken);
+            std::vector<double> answers;
+            for (std::size_t i = 0; i < region.size(); i += 1 + region.size() / kAsked)
+                answers.push_back(ask(region[i]));
+            const double level = most_frequent(std::move(answers));
+            for (const std::size_t cell : region) grid.level[cell] = level;
         }
+    }
 }
 
 void fill_bounds(const Frame& frame, const std::vector<std::vector<Hit>>& hits, CellGrid& grid) {
@@ -209,6 +282,7 @@ CellGrid fill_cells(const Frame& frame, const Chain& chain, const std::vector<st
     grid.rows = frame.rows;
     fill_lists(frame, hits, grid);
     flag_steps(hits, grid);
+    fill_starts(frame, grid);
     fill_levels(frame, grid);
     fill_bounds(frame, hits, grid);
     flag_isolated(chain, hits, grid);
@@ -216,27 +290,16 @@ CellGrid fill_cells(const Frame& frame, const Chain& chain, const std::vector<st
     return grid;
 }
 
-int doubtful_centres(const Frame& frame) {
-    int count = 0;
-    for (const ResolvedElement& e : frame.pattern.elements) {
-        if (!frame.pattern.styles[e.style].step) continue;
-        const int pieces = std::max(
-            1, static_cast<int>(4.0 * curve::arc_length(e.element) / std::min(frame.cell.x, frame.cell.y)));
-        Vec2 before = e.element.p0;
-        for (int i = 1; i <= pieces; ++i) {
-            const Vec2 p = curve::point(e.element, static_cast<double>(i) / pieces),
-                       middle = lerp(before, p, 0.5);
-            const Vec2 cell{std::floor(middle.x / frame.cell.x) + 0.5,
-                            std::floor(middle.y / frame.cell.y) + 0.5};
-            const double near = 1e-3 * std::min(frame.cell.x, frame.cell.y);
-            double along = 0.0;
-            if (resolving::segment_distance(before, p, {cell.x * frame.cell.x, cell.y * frame.cell.y},
-                                            along) < near)
-                ++count;
-            before = p;
-        }
-    }
-    return count;
+}  // namespace burin::gridding
+
+namespace burin {
+
+Vec2 cell_start(std::uint32_t index) {
+    const auto along = [index](std::uint32_t factor) {
+        const auto at = static_cast<int>((index * factor + BURIN_START_HALF) % BURIN_START_STEPS);
+        return (at - BURIN_START_HALF) / BURIN_START_SPREAD;
+    };
+    return {along(BURIN_START_FACTOR_U), along(BURIN_START_FACTOR_V)};
 }
 
-}  // namespace burin::gridding
+}  // namespace burin

@@ -32,6 +32,12 @@ struct Frame {
                 {(col + 1 + margin) * cell.x, (row + 1 + margin) * cell.y}};
     }
     Vec2 centre(int col, int row) const { return {(col + 0.5) * cell.x, (row + 0.5) * cell.y}; }
+    // Start `index` of cell k.
+    Vec2 start(std::size_t k, std::uint32_t index) const {
+        const Vec2 away = cell_start(index);
+        return centre(static_cast<int>(k) % cols, static_cast<int>(k) / cols) +
+               Vec2{away.x * cell.x, away.y * cell.y};
+    }
 };
 
 // next[e]: the element that e's end joins smoothly, or kNoElement; the same for starts.
@@ -53,9 +59,6 @@ std::vector<std::vector<Hit>> find_hits(const Frame& frame, const Chain& chain, 
 
 // Lists, levels, bounds, flags and skip from the hits.
 CellGrid fill_cells(const Frame& frame, const Chain& chain, const std::vector<std::vector<Hit>>& hits);
-
-// Cells whose centre a step's arc passes nearer than a thousandth of a cell.
-int doubtful_centres(const Frame& frame);
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 

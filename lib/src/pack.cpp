@@ -106,7 +106,8 @@ Packer::Failure Packer::check_input() {
                      " cells, range [1, " + std::to_string(BURIN_MAX_TEXTURE_SIDE) + "] on each side");
     }
     if (grid_.first_ref.size() != cells + 1 || grid_.level.size() != cells || grid_.highest.size() != cells ||
-        grid_.lowest.size() != cells || grid_.skip.size() != cells || grid_.flags.size() != cells ||
+        grid_.lowest.size() != cells || grid_.skip.size() != cells || grid_.start.size() != cells ||
+        grid_.flags.size() != cells ||
         grid_.first_ref.back() != grid_.refs.size()) {
         return invalid("the grid's arrays do not have one entry for each of its " + text(cells) + " cells");
     }
@@ -426,6 +427,7 @@ CellCode Packer::encode_cell(std::size_t cell, std::size_t count, std::uint32_t 
         return code;
     }
     code.flags = grid_.flags[cell];
+    if ((code.flags & BURIN_CELL_FLAG_STEP) != 0) code.skip = grid_.start[cell];
     // Wider by what levels, heights and scales may have moved in quantization, so that the bounds stay
     // conservative. The surface lies within the height range, so bounds beyond it say no more than the range
     // itself.

@@ -65,7 +65,11 @@ class Rasterizer {
                           Plane& plane) const;
     bool merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const;
     double sample(const std::vector<Entry>& entries, Vec2 p, double ground) const;
-    float value_of(double z) const { return static_cast<float>(1.0 + (z - base_offset_) / truth_.depth); }
+    // Rays begin at the object surface and end at the deepest point: a reader sees nothing beyond.
+    double seen(double z) const { return std::clamp(z, base_offset_ - truth_.depth, base_offset_); }
+    float value_of(double z) const {
+        return static_cast<float>(1.0 + (seen(z) - base_offset_) / truth_.depth);
+    }
 
     Truth owner_;
     const Prepared& truth_;
@@ -402,8 +406,8 @@ float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket,
         const std::size_t i = k % n, j = k / n;
         const Vec2 p{(x + (static_cast<double>(i) + 0.5) / samples_) * texel_.x,
                      (y + (static_cast<double>(j) + 0.5) / samples_) * texel_.y};
-        sum += height_field ? sample(entries, p, level_of(i, j))
-                            : owner_.surface_at(p, candidates, level_of(i, j)).height;
+        sum += seen(height_field ? sample(entries, p, level_of(i, j))
+                                 : owner_.surface_at(p, candidates, level_of(i, j)).height);
     }
     return value_of(sum / static_cast<double>(n * n));
 }

@@ -164,7 +164,9 @@ void Unpacker::read_cell(std::uint32_t index) {
     grid.level.push_back(height(code.level));
     grid.highest.push_back(unit_to_height(decode_unorm8(code.highest), detail_.depth, detail_.base_offset));
     grid.lowest.push_back(unit_to_height(decode_unorm8(code.lowest), detail_.depth, detail_.base_offset));
-    grid.skip.push_back(static_cast<std::uint8_t>(code.skip));
+    const bool step = (code.flags & BURIN_CELL_FLAG_STEP) != 0;
+    grid.skip.push_back(static_cast<std::uint8_t>(step ? 0 : code.skip));
+    grid.start.push_back(static_cast<std::uint8_t>(step ? code.skip : 0));
     grid.flags.push_back(static_cast<std::uint8_t>(code.flags));
 }
 

@@ -16,6 +16,12 @@ float burin_drop(float unorm) {
     return burin_map.depth * (1.0f - unorm);
 }
 
+// Cell sides from a cell's centre to its start, along one axis.
+float burin_start(int spread) {
+    int at = (spread + BURIN_START_HALF) % BURIN_START_STEPS - BURIN_START_HALF;
+    return float(at) * (1.0f / float(BURIN_START_SPREAD));
+}
+
 BurinCell burin_cell(ivec2 index) {
     uvec2 word = fetch_cell(index);
     BurinCell cell;
@@ -23,6 +29,11 @@ BurinCell burin_cell(ivec2 index) {
     cell.count = int((word.x >> 20) & 63u);
     cell.skip = int((word.x >> 26) & 15u);
     cell.flags = word.x >> 30;
+    cell.start = vec2(0.0f, 0.0f);
+    if ((cell.flags & BURIN_CELL_FLAG_STEP) != 0u) {
+        cell.start = vec2(burin_start(cell.skip * BURIN_START_FACTOR_U), burin_start(cell.skip * BURIN_START_FACTOR_V));
+        cell.skip = 0;
+    }
     cell.level = burin_drop(float(word.y & 0xffffu) / 65535.0f);
     cell.highest = burin_drop(float((word.y >> 16) & 255u) / 255.0f);
     cell.lowest = burin_drop(float(word.y >> 24) / 255.0f);

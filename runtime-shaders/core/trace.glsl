@@ -209,9 +209,9 @@ bool burin_trace_cell(BurinCell cell, vec2 range, BURIN_INOUT(BurinHit) hit) {
         line.level = ground;
         line.mark = hit.mark;
         if (stepped) {
-            vec2 centre = hit.centre * burin_map.size - hit.ray.origin;
+            vec2 start = (hit.centre + cell.start / vec2(burin_map.cells)) * burin_map.size - hit.ray.origin;
             bool first = n == 0;
-            line = burin_step_line(cell, hit.ray, hit.centre, first ? centre : a, first ? a : b, after, first);
+            line = burin_step_line(cell, hit.ray, hit.centre, first ? start : a, first ? a : b, after, first);
             if (first) {
                 ground = line.level;
                 continue;
@@ -268,7 +268,7 @@ bool burin_trace_outside(BURIN_INOUT(BurinHit) hit, BURIN_INOUT(float) t) {
     return false;
 }
 
-BurinHit burin_start(BurinRay ray, float t1) {
+BurinHit burin_begin(BurinRay ray, float t1) {
     BurinHit hit;
     hit.met = true;
     hit.t = t1;
@@ -309,7 +309,7 @@ ivec2 burin_next_cell(ivec2 index, int skip, int axis, float t, BURIN_INOUT(Buri
 
 // Follows the ray from drop t0 until it meets the surface or has fallen to t1.
 BurinHit burin_trace(BurinRay start, float t0, float t1) {
-    BurinHit hit = burin_start(start, t1);
+    BurinHit hit = burin_begin(start, t1);
     vec2 size = burin_map.size;
     vec2 p = start.origin + start.slope * t0;
     bool repeats = burin_map.repeats != 0;

@@ -28,8 +28,9 @@ struct BurinCell {
     int first;  // of its references
     int count;
     int skip;  // cells around it, in every direction, that are as empty as it is
+    vec2 start;  // where the walk to a point of the cell begins, in cell sides from the centre
     uint flags;
-    float level;    // drop of the ground at the centre
+    float level;    // drop of the ground at the start
     float highest;  // drop that no surface of the cell lies above
     float lowest;   // drop that no surface of the cell lies below
 };

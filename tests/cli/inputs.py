@@ -87,6 +87,28 @@ def plane_gltf(materials):
     })
 
 
+LETTERS = ("#### #   # ### ", "#    ##  # #  #", "###  # # # #  #", "#    #  ## #  #", "#### #   # ###")
+
+
+def flat_maps(side=128):
+    """Maps of two levels whose steps run through the centres of cells, or meet in corners: {name: bytes of a PNG}."""
+
+    def letters(x, y):
+        column, row = (x - 16) // 6, (y - 48) // 6
+        inked = 0 <= row < len(LETTERS) and 0 <= column < len(LETTERS[row]) and LETTERS[row][column] == "#"
+        return 0 if inked else 255
+
+    surfaces = {
+        "stripes": lambda x, y: 255 * (x // 8 % 2),
+        "slanting": lambda x, y: 255 * ((x + y) // 16 % 2),
+        "checkers": lambda x, y: 255 * ((x // 16 + y // 16) % 2),
+        "letters": letters,
+        "plates": lambda x, y: 255 if abs(x - 63.5) < 30 and abs(y - 63.5) < 45 else 90,
+    }
+    return {name: png(side, side, [[surface(x, y) for x in range(side)] for y in range(side)], bits=8)
+            for name, surface in surfaces.items()}
+
+
 OBJ = """v 0 0 0\nv 2 0 0\nv 2 0 2\nv 0 0 2\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 3/3 2/2\nf 1/1 4/4 3/3\n"""
 
 

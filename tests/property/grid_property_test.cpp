@@ -124,6 +124,8 @@ void check_cell(const ResolvedPattern& pattern, const Truth& truth, const CellGr
     const std::vector<std::uint32_t> listed = all_of(local);
     const Vec2 in = pattern.wrap == Wrap::repeat ? pattern.size : Vec2{0.0, 0.0};
     const double slack = 1e-9 * pattern.depth;
+    const Vec2 away = cell_start(grid.start[cell.index]);
+    const Vec2 start = cell.centre + Vec2{away.x * cell.side.x, away.y * cell.side.y};
     for (int i = 0; i < points; ++i) {
         const double reach = 0.5 + kMargin;
         const Vec2 p = cell.centre + Vec2{random.between(-reach, reach) * cell.side.x,
@@ -139,7 +141,7 @@ void check_cell(const ResolvedPattern& pattern, const Truth& truth, const CellGr
         EXPECT_GE(whole.height, grid.lowest[cell.index] - slack);
         if (is_near_step(truth, p, whole.ground)) continue;
         const bool step = (grid.flags[cell.index] & BURIN_CELL_FLAG_STEP) != 0;
-        EXPECT_NEAR(step ? ground_by_way(local, p + in, cell.centre + in, grid.level[cell.index])
+        EXPECT_NEAR(step ? ground_by_way(local, p + in, start + in, grid.level[cell.index])
                          : grid.level[cell.index],
                     whole.ground, slack)
             << "ground at (" << p.x << ", " << p.y << "), cell (" << cell.col << ", " << cell.row << ")";
@@ -223,7 +225,7 @@ TEST(GridProperty, ListsLittleInVain) {
 bool equal_grids(const CellGrid& a, const CellGrid& b) {
     return a.cols == b.cols && a.rows == b.rows && a.first_ref == b.first_ref && a.refs == b.refs &&
            a.level == b.level && a.highest == b.highest && a.lowest == b.lowest && a.skip == b.skip &&
-           a.flags == b.flags;
+           a.start == b.start && a.flags == b.flags;
 }
 
 TEST(GridProperty, ThreadsChangeNothing) {

@@ -52,7 +52,11 @@ class SpecificationReader {
         for (std::uint32_t k = 0; k < bits(x, 20, 25); ++k)
             list.push_back(element(reference(bits(x, 0, 19) + k), cu, cv));
         std::uint32_t level = bits(y, 0, 15);
-        if (bits(x, 31, 31)) level = ground_code(list, {cu * q_.size[0], cv * q_.size[1]}, p, level);
+        // The start of the walk, section 5.
+        const int k = static_cast<int>(bits(x, 26, 29));
+        const double su = cu + ((771 * k + 510) % 1021 - 510) / 1361.0 / q_.grid_width;
+        const double sv = cv + ((582 * k + 510) % 1021 - 510) / 1361.0 / q_.grid_height;
+        if (bits(x, 31, 31)) level = ground_code(list, {su * q_.size[0], sv * q_.size[1]}, p, level);
         answer.ground = height_of(level);
         answer.highest = height_of(257 * bits(y, 16, 23));
         answer.lowest = height_of(257 * bits(y, 24, 31));

@@ -68,6 +68,20 @@ TEST_P(CoreTest, ShaderAgreesWithTruth) {
 INSTANTIATE_TEST_SUITE_P(Authored, CoreTest, ::testing::ValuesIn(authored_patterns()),
                          [](const auto& named) { return named.param.name; });
 
+// Steps exactly through the centres of cells, where the side that a centre lies on would be rounding.
+TEST(DecoderTest, StepsThroughCellCentres) {
+    const std::vector<NamedPattern> patterns = {
+        {"stripes", stripes_pattern()}, {"diamonds", diamonds_pattern()}, {"checker", checker_pattern()}};
+    for (const NamedPattern& named : patterns) {
+        const PreparedPattern pattern = prepare(named.pattern, {.cell_size = 0.1});
+        ASSERT_EQ(pattern.textures.grid_width, 10) << named.name;
+        const std::vector<AimedRay> rays = aim_rays(pattern, ray_count(), kSeed);
+        expect_agreement(judge(pattern, rays, decode_rays(pattern, rays)), named.name);
+        const std::vector<ShadedHit> hits = shade(pattern, rays);
+        if (!hits.empty()) expect_agreement(judge(pattern, rays, hits), named.name + " as shader");
+    }
+}
+
 // Knots, hairpins, near-parallel lines, steps in steps: what nobody would author.
 class RandomCoreTest : public ::testing::TestWithParam<int> {};
 

@@ -183,6 +183,29 @@ inline Pattern plateau_pattern() {
     return p;
 }
 
+// Steps through the centres of cells of a tenth: upright and level, along diagonals, and corners that meet there.
+inline Pattern stripes_pattern() {
+    Pattern p = base();
+    p.profiles = {cliff(0.002, 0.006)};
+    p.paths = {polyline({{0.15, 0.15}, {0.35, 0.15}, {0.35, 0.85}, {0.15, 0.85}}, 0, true),
+               polyline({{0.55, 0.15}, {0.75, 0.15}, {0.75, 0.85}, {0.55, 0.85}}, 0, true)};
+    return p;
+}
+inline Pattern diamonds_pattern() {
+    Pattern p = base();
+    p.profiles = {cliff(0.002, 0.006)};
+    p.paths = {polyline({{0.25, 0.05}, {0.45, 0.25}, {0.25, 0.45}, {0.05, 0.25}}, 0, true),
+               polyline({{0.65, 0.35}, {0.95, 0.65}, {0.65, 0.95}, {0.35, 0.65}}, 0, true)};
+    return p;
+}
+inline Pattern checker_pattern() {
+    Pattern p = base();
+    p.profiles = {cliff(0.002, 0.006)};
+    p.paths = {polyline({{0.15, 0.15}, {0.45, 0.15}, {0.45, 0.45}, {0.15, 0.45}}, 0, true),
+               polyline({{0.45, 0.45}, {0.75, 0.45}, {0.75, 0.75}, {0.45, 0.75}}, 0, true)};
+    return p;
+}
+
 inline Pattern overhang_pattern() {
     Pattern p = base(kRise);
     p.profiles = {rail(0.03, 0.007), undercut(0.03, 0.010), groove(0.02, 0.006)};

@@ -133,13 +133,13 @@ Verdict compare(const Truth& truth, const PreparedPattern& p, const AimedRay& ai
 
 }  // namespace
 
-PreparedPattern prepare(const Pattern& pattern) {
+PreparedPattern prepare(const Pattern& pattern, const GridOptions& options) {
     PreparedPattern p;
     auto resolved = resolve_pattern(pattern);
     EXPECT_TRUE(resolved.ok()) << (resolved ? "" : resolved.error().message);
     if (!resolved) return p;
     p.resolved = *resolved;
-    auto grid = build_grid(p.resolved);
+    auto grid = build_grid(p.resolved, options);
     EXPECT_TRUE(grid.ok()) << (grid ? "" : grid.error().message);
     if (!grid) return p;
     auto textures = pack_textures(p.resolved, *grid);

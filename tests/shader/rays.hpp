@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <burin/evaluate.hpp>
+#include <burin/grid.hpp>
 #include <burin/pack.hpp>
 #include <burin/resolve.hpp>
 
@@ -35,7 +36,7 @@ struct PreparedPattern {
 };
 
 // Fails the running test when a stage fails.
-PreparedPattern prepare(const Pattern& pattern);
+PreparedPattern prepare(const Pattern& pattern, const GridOptions& options = {});
 
 // Slopes reach about 3 (70 degrees from upright). Equal for equal seeds.
 std::vector<AimedRay> aim_rays(const PreparedPattern& pattern, int count, std::uint64_t seed);

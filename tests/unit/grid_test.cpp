@@ -108,22 +108,28 @@ TEST(Grid, LevelAndStepFlagFollowThePlate) {
     EXPECT_EQ(grid.level[at(grid, 5, 5)], -0.002);
     EXPECT_EQ(grid.flags[at(grid, 5, 5)] & BURIN_CELL_FLAG_STEP, 0u);
     EXPECT_NE(grid.flags[at(grid, 5, 3)] & BURIN_CELL_FLAG_STEP, 0u);
-    EXPECT_EQ(grid.level[at(grid, 5, 3)], -0.002);
+    const double start = 0.35 + 0.1 * cell_start(grid.start[at(grid, 5, 3)]).y;
+    EXPECT_EQ(grid.level[at(grid, 5, 3)], start > 0.33 ? -0.002 : 0.0);
     EXPECT_EQ(grid.lowest[at(grid, 5, 3)], -0.002);
     EXPECT_EQ(grid.highest[at(grid, 5, 3)], 0.0);
 }
 
-TEST(Grid, StepsDoNotRunAlongCellCentres) {
-    // Cells of 0.1 would have their centres on the plate's edges.
-    const ResolvedPattern pattern = pattern_of({plate(0.35, 0.65)});
-    const CellGrid grid = grid_of(pattern, {.cell_size = 0.1});
+TEST(Grid, TheWalkStartsClearOfSteps) {
+    // Cells of 0.1 have their centres on the plate's edges.
+    const CellGrid grid = grid_of(pattern_of({plate(0.35, 0.65)}), {.cell_size = 0.1});
+    ASSERT_EQ(grid.cols, 10);
     for (int row = 0; row < grid.rows; ++row)
         for (int col = 0; col < grid.cols; ++col) {
-            const Vec2 c{(col + 0.5) / grid.cols, (row + 0.5) / grid.rows};
+            const std::size_t k = at(grid, col, row);
+            const Vec2 away = cell_start(grid.start[k]);
+            const Vec2 c{(col + 0.5 + away.x) / grid.cols, (row + 0.5 + away.y) / grid.rows};
+            EXPECT_TRUE(std::abs(away.x) < 0.5 && std::abs(away.y) < 0.5);
             const bool inside = c.x > 0.35 && c.x < 0.65 && c.y > 0.35 && c.y < 0.65;
-            EXPECT_NEAR(grid.level[at(grid, col, row)], inside ? -0.002 : 0.0, 1e-15);
+            EXPECT_NEAR(grid.level[k], inside ? -0.002 : 0.0, 1e-15);
+            if ((grid.flags[k] & BURIN_CELL_FLAG_STEP) == 0) continue;
+            EXPECT_NE(grid.start[k], 0);
             for (const double edge : {0.35, 0.65})
-                EXPECT_GT(std::min(std::abs(c.x - edge), std::abs(c.y - edge)), 1e-4);
+                EXPECT_GT(std::min(std::abs(c.x - edge), std::abs(c.y - edge)), 0.002);
         }
 }
 

@@ -42,6 +42,7 @@ CellGrid empty_grid(int cols, int rows) {
     grid.highest.assign(cells, 0.0);
     grid.lowest.assign(cells, 0.0);
     grid.skip.assign(cells, 0);
+    grid.start.assign(cells, 0);
     grid.flags.assign(cells, 0);
     return grid;
 }

@@ -165,7 +165,7 @@ void add_grid_cases(std::map<int, Bytes>& cases) {
     cases[3007] = broken_cell(0, 1, [](CellCode& c) { c.flags |= BURIN_CELL_FLAG_STEP; });
     cases[3008] = broken_cell(5, 5, [](CellCode& c) { c.flags |= BURIN_CELL_FLAG_ISOLATED; });
     cases[3009] = broken_cell(4, 3, [](CellCode& c) { c.level = 254 * 257, c.lowest = 254; });
-    cases[3010] = broken_cell(5, 5, [](CellCode& c) { c.flags = 0; });
+    cases[3010] = broken_cell(5, 5, [](CellCode& c) { c.flags = 0, c.skip = 0; });
 }
 
 void add_element_cases(std::map<int, Bytes>& cases) {

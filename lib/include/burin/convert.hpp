@@ -77,7 +77,8 @@ struct Converted {
 // Requires: the model was checked with find_material, or its error is welcome late.
 // Ensures: the bytes depend on map, model and options alone, not on `threads`; the time in `stats` is the only thing that
 // differs between runs.
-// Fails with the error of the stage that failed, and with invalid_argument when `progress` returns false.
+// Fails with the error of the stage that failed, and with invalid_argument when `progress` returns false. Throws
+// std::logic_error when what was packed breaks the format, a bug.
 // Cost: that of vectorizing and refining; the other stages together stay below a few seconds for 2048 x 2048.
 Result<Converted> convert_map(const HeightMap& map, const Model& model, const ConvertOptions& options = {},
                               const Progress& progress = {});

@@ -16,9 +16,9 @@
 // COMPLETE. For every point p of the margin rectangle (inside [0, size] when clamped) the listed elements contain
 //   - every element that acts at p (resolve.hpp), and
 //   - every step element whose arc passes through the margin rectangle; then the cell has BURIN_CELL_FLAG_STEP.
-// So the ground at p follows from the cell alone: on the straight way from the cell's centre to p, the arc of a listed step
+// So the ground at p follows from the cell alone: on the straight way from the cell's start to p, the arc of a listed step
 // that is crossed last gives the level of the side walked to; none crossed: `level`. Without the flag the ground is
-// `level` everywhere. Sizes are preferred at which no step runs along the centres of a row or column of cells.
+// `level` everywhere. The start is the first of 16 points, the centre after all others, that no listed step comes near.
 // TIGHT. An element is listed only where its path line, widened by its reach there (profile, width scale, mitre
 // tip, cap), comes nearer to the margin rectangle than a thousandth of a cell.
 #pragma once
@@ -44,7 +44,8 @@ struct CellGrid {
     int rows = 0;  // [1, BURIN_MAX_TEXTURE_SIDE]
     std::vector<std::uint32_t> first_ref;  // cols * rows + 1 entries: cell k lists refs[first_ref[k] .. first_ref[k + 1])
     std::vector<std::uint32_t> refs;       // indices into ResolvedPattern::elements, ascending within a cell
-    std::vector<double> level;             // ground at the cell's centre, metres
+    std::vector<std::uint8_t> start;       // index of the start, [0, 15]; 0 without BURIN_CELL_FLAG_STEP
+    std::vector<double> level;             // ground at the cell's start, metres
     std::vector<double> highest, lowest;   // bounds of the surface in the margin rectangle, metres; conservative
     // Every cell of the square of (2 skip + 1)^2 cells around this one lists nothing and has the same level, so a ray
     // may go on where it leaves that square. 0 for a cell that lists something. The square never passes the border
@@ -55,6 +56,9 @@ struct CellGrid {
     // one line), and no other kind of end acts in the margin rectangle. Set for an empty cell without step, too.
     std::vector<std::uint8_t> flags;
 };
+
+// Start `index` of a cell, in cell sides from its centre.
+Vec2 cell_start(std::uint32_t index);
 
 // Bytes of the cells and lists as packed, before equal lists are merged.
 inline std::size_t grid_bytes(const CellGrid& grid) {

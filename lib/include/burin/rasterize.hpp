@@ -3,8 +3,8 @@
 //     ResolvedPattern --[rasterize_height]--> Image
 //
 // The map covers the tile [0, size]; texel convention and box filter as in image.hpp; value = 1 + (z -
-// base_offset) / depth, so 1 is the object surface and 0 is `depth` below it. Values are not clamped. The
-// surface is the truth's (evaluate.hpp), asked through buckets of its own so that few elements are tried per
+// base_offset) / depth, so 1 is the object surface and 0 is `depth` below it. Heights beyond the
+// range are cut off, as a reader's rays do. The surface is the truth's (evaluate.hpp), asked through buckets of its own so that few elements are tried per
 // texel.
 #pragma once
 

@@ -50,7 +50,7 @@ using CellTexel = std::array<std::uint32_t, 2>;  // words x, y of a grid texel
 struct CellCode {
     std::uint32_t first_reference = 0;  // [0, 2^20)
     std::uint32_t count = 0;            // [0, 63]
-    std::uint32_t skip = 0;             // [0, 15] cells
+    std::uint32_t skip = 0;             // [0, 15] cells; with BURIN_CELL_FLAG_STEP: the start of the walk
     std::uint32_t flags = 0;            // BURIN_CELL_FLAG_*
     std::uint32_t level = 0;            // UNORM16
     std::uint32_t highest = 0;          // UNORM8, rounded up
