@@ -152,9 +152,9 @@ class EndSettler {
         }
     }
 
-    // Whether another groove or ridge covers part of the section at p.
-    bool covered(const End& end, Vec2 p, double reach) const {
-        const int span = static_cast<int>(std::ceil(reach / kBucket));
+    // Calls visit(path, element) for the elements in the buckets around p but the end's own; stops when it returns true.
+    template <typename Visit>
+    bool any_around(const End& end, Vec2 p, int span, Visit visit) const {
         for (int y = bucket(p.y) - span; y <= bucket(p.y) + span; ++y) {
             for (int x = bucket(p.x) - span; x <= bucket(p.x) + span; ++x) {
                 const auto found = buckets_.find({x, y});
@@ -163,14 +163,22 @@ class EndSettler {
                     const Path& other = pattern_.paths[path];
                     const std::size_t own = end.at_start ? 0 : other.elements.size() - 1;
                     if (path == end.path && index == own) continue;
-                    // A small closed step is no obstacle: it may be what the tracer made of the stub itself.
-                    if (other.closed && is_step(pattern_.profiles[other.profile])) continue;
-                    const double other_reach = reach_of(pattern_.profiles[other.profile]);
-                    if (distance_to(other.elements[index], p) < other_reach + reach) return true;
+                    if (visit(path, other.elements[index])) return true;
                 }
             }
         }
         return false;
+    }
+
+    // Whether another groove or ridge covers part of the section at p.
+    bool covered(const End& end, Vec2 p, double reach) const {
+        return any_around(end, p, static_cast<int>(std::ceil(reach / kBucket)), [&](std::size_t path, const Element& e) {
+            const Path& other = pattern_.paths[path];
+            const Profile& profile = pattern_.profiles[other.profile];
+            // A small closed step is no obstacle: it may be what the tracer made of the stub itself.
+            if (other.closed && is_step(profile)) return false;
+            return distance_to(e, p) < reach_of(profile) + reach;
+        });
     }
 
     double map_at(Vec2 p) const {
@@ -294,23 +302,12 @@ class EndSettler {
         return {move, std::nullopt, std::nullopt};
     }
 
-    // Calls visit(path, element) for other elements near p; stops when it returns true.
+    // The same without steps.
     template <typename Visit>
     bool any_near(const End& end, Vec2 p, int span, Visit visit) const {
-        for (int y = bucket(p.y) - span; y <= bucket(p.y) + span; ++y) {
-            for (int x = bucket(p.x) - span; x <= bucket(p.x) + span; ++x) {
-                const auto found = buckets_.find({x, y});
-                if (found == buckets_.end()) continue;
-                for (const auto& [path, index] : found->second) {
-                    const Path& other = pattern_.paths[path];
-                    const std::size_t own = end.at_start ? 0 : other.elements.size() - 1;
-                    if (path == end.path && index == own) continue;
-                    if (is_step(pattern_.profiles[other.profile])) continue;
-                    if (visit(path, other.elements[index])) return true;
-                }
-            }
-        }
-        return false;
+        return any_around(end, p, span, [&](std::size_t path, const Element& e) {
+            return !is_step(pattern_.profiles[pattern_.paths[path].profile]) && visit(path, e);
+        });
     }
 
     // Where the way ahead of an end first meets another path's line, as far as the map shows the path's middle.

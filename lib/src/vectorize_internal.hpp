@@ -1,6 +1,7 @@
 // Shared by the parts of stage vectorize. Lengths are texels, heights map values 0..1, unless a name says otherwise.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -34,7 +35,15 @@ struct Lattice {
         return y * width + x;
     }
     int size() const { return width * height; }
+    // The shift by whole tiles that brings p nearest to `target`.
+    Vec2 shift_to(Vec2 p, Vec2 target) const {
+        if (!wrap) return {0.0, 0.0};
+        return {width * std::round((target.x - p.x) / width), height * std::round((target.y - p.y) / height)};
+    }
 };
+
+// Texels between neighbouring points of a chain beyond which there were others that were dropped.
+inline constexpr double kBridge = 3.0;
 
 // Bilinear value at a point of texel space (sample centres at half integers).
 float sample(const Image& image, const Lattice& lattice, Vec2 p);

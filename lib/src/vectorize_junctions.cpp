@@ -26,12 +26,6 @@ struct Joint {
     std::vector<Arm> arms;
 };
 
-Vec2 tile_shift(Vec2 p, Vec2 target, const Lattice& lattice) {
-    if (!lattice.wrap) return {0, 0};
-    return {-lattice.width * std::round((p.x - target.x) / lattice.width),
-            -lattice.height * std::round((p.y - target.y) / lattice.height)};
-}
-
 // Total least squares line through the strand's points nearest to the given end.
 Arm make_arm(const Strand& strand, int index, int end, const SkeletonNode& node, const Lattice& lattice) {
     Arm arm;
@@ -51,7 +45,7 @@ Arm make_arm(const Strand& strand, int index, int end, const SkeletonNode& node,
         near.push_back(p);
     }
     auto [mean, direction] = fit_line(near);
-    const Vec2 shift = tile_shift(near.front(), node.position, lattice);
+    const Vec2 shift = lattice.shift_to(near.front(), node.position);
     const Vec2 foot = mean + shift - node.position;
     Vec2 outward = near.size() > 1 ? near.front() - near.back() : -foot;
     if (dot(outward, outward) == 0.0) outward = -foot;
@@ -216,7 +210,7 @@ void contract_stems(Skeleton& skeleton, const Lattice& lattice) {
         if (std::min(both(2, 3), both(3, 2)) > 1.0) continue;
         stem.gone = true;
         SkeletonNode& node = skeleton.nodes[a];
-        const Vec2 other = skeleton.nodes[b].position + tile_shift(skeleton.nodes[b].position, node.position, lattice);
+        const Vec2 other = skeleton.nodes[b].position + lattice.shift_to(skeleton.nodes[b].position, node.position);
         node.radius = std::max(radius, 0.5 * length(other - node.position));
         node.position = lerp(node.position, other, 0.5);
         for (const auto& [strand, end] : touching[b]) skeleton.strands[strand].node[end] = a;
@@ -240,7 +234,7 @@ void append_strand(std::vector<Vec2>& chain, const Strand& strand, bool reversed
     if (reversed) std::reverse(points.begin(), points.end());
     if (points.empty()) return;
     const Vec2 anchor = has_entry ? entry : chain.empty() ? points.front() : chain.back();
-    const Vec2 shift = tile_shift(points.front(), anchor, lattice);
+    const Vec2 shift = lattice.shift_to(points.front(), anchor);
     for (const Vec2 p : points) chain.push_back(p + shift);
 }
 
@@ -298,7 +292,7 @@ struct Builder {
 
     Vec2 place(const Chain& chain, const Arm& arm, int node) const {
         const Vec2 p = graph.skeleton.nodes[node].position + arm.target;
-        return chain.points.empty() ? p : p + tile_shift(p, chain.points.back(), graph.lattice);
+        return chain.points.empty() ? p : p + graph.lattice.shift_to(p, chain.points.back());
     }
     void begin_at(Chain& chain, const Arm& arm) {
         const int node = graph.arm_of[arm.strand][arm.end][0];
@@ -361,10 +355,10 @@ void settle_free_end(std::vector<Vec2>& points, const Chain& chain, const Image&
     if (points.size() < 2) return;
     const double disturbed = chain.half_width + 1.0, span = std::max(8.0, 4.0 * chain.half_width);
     std::size_t last = points.size() - 1;
-    while (last > 3 && length(points[last] - points.back()) < disturbed && length(points[last] - points[last - 1]) < 3.0) --last;
+    while (last > 3 && length(points[last] - points.back()) < disturbed && length(points[last] - points[last - 1]) < kBridge) --last;
     std::vector<Vec2> near;
     for (std::size_t k = last + 1; k-- > 0;) {
-        if (near.size() >= 2 && length(points[k] - near.back()) > 3.0) break;
+        if (near.size() >= 2 && length(points[k] - near.back()) > kBridge) break;
         if (near.size() >= 4 && length(points[k] - near.front()) > span) break;
         near.push_back(points[k]);
     }
@@ -429,7 +423,7 @@ std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const
         settle_ends(chain, response, lattice);
         if (chain.closed) {
             const Vec2 gap = chain.points.front() - chain.points.back();
-            const Vec2 home = gap + tile_shift(gap, {0, 0}, lattice);
+            const Vec2 home = gap + lattice.shift_to(gap, {0, 0});
             chain.winding = home - gap;
             chain.winding = -chain.winding;
         }

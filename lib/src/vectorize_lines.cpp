@@ -111,7 +111,6 @@ double chain_length(const Chain& chain) {
     return sum;
 }
 
-constexpr double kBridge = 3.0;  // texels between points beyond which there were others that were dropped
 constexpr std::int32_t kNobody = -1, kSeveral = -2;
 
 // Which chain each texel is a part of: its index, nobody's, or several chains'.

@@ -124,12 +124,7 @@ double texel_length(const Strand& strand) {
     return sum;
 }
 
-// Shifts `p` by whole tiles to lie nearest to `target`.
-Vec2 nearest_image(Vec2 p, Vec2 target, const Lattice& lattice) {
-    if (!lattice.wrap) return p;
-    return {p.x - lattice.width * std::round((p.x - target.x) / lattice.width),
-            p.y - lattice.height * std::round((p.y - target.y) / lattice.height)};
-}
+Vec2 nearest_image(Vec2 p, Vec2 target, const Lattice& lattice) { return p + lattice.shift_to(p, target); }
 
 // A thinned mask grows a branch into every corner of a wide line; such branches are no longer than the line is wide.
 bool prune_spurs(Skeleton& skeleton) {

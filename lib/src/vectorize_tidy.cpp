@@ -24,7 +24,6 @@ LineFit fit_line(const std::vector<Vec2>& points) {
 
 namespace {
 
-constexpr double kBridge = 3.0;       // texels between points beyond which there were others that were dropped
 constexpr double kHiddenStub = 2.0;  // texels a line may reach out of the one it ends on
 
 void reverse_points(Chain& chain) {
@@ -89,12 +88,6 @@ class EndJoiner {
     }
 
   private:
-    Vec2 shift_to(Vec2 p, Vec2 target) const {
-        if (!lattice_.wrap) return {0.0, 0.0};
-        return {lattice_.width * std::round((target.x - p.x) / lattice_.width),
-                lattice_.height * std::round((target.y - p.y) / lattice_.height)};
-    }
-
     // Below 1 when the two continue each other.
     double cost_of(const EndLine& a, const EndLine& b) const {
         if (a.chain == b.chain) return 2.0;
@@ -102,7 +95,7 @@ class EndJoiner {
         const Chain& q = chains_[b.chain];
         const double wide = std::max(p.half_width, q.half_width), narrow = std::min(p.half_width, q.half_width);
         const double high = std::max(p.contrast, q.contrast), low = std::min(p.contrast, q.contrast);
-        const Vec2 between = b.foot + shift_to(b.foot, a.foot) - a.foot;
+        const Vec2 between = b.foot + lattice_.shift_to(b.foot, a.foot) - a.foot;
         const double gap = length(between);
         if (gap > 8.0 * wide + 8.0 || wide + 0.5 > 1.3 * (narrow + 0.5) || high > 1.4 * low) return 2.0;
         const double turn = std::acos(std::clamp(-dot(a.outward, b.outward), -1.0, 1.0));
@@ -130,7 +123,7 @@ class EndJoiner {
         drop_beyond(p.points, a);
         drop_beyond(q.points, b);
         turn(second);
-        const Vec2 shift = shift_to(q.points.front(), p.points.back());
+        const Vec2 shift = lattice_.shift_to(q.points.front(), p.points.back());
         const double np = static_cast<double>(p.points.size()), nq = static_cast<double>(q.points.size());
         p.half_width = (np * p.half_width + nq * q.half_width) / (np + nq);
         p.contrast = (np * p.contrast + nq * q.contrast) / (np + nq);
@@ -153,7 +146,7 @@ class EndJoiner {
     // The point of a tie, and what was guessed of an end.
     void drop_beyond(std::vector<Vec2>& points, const EndLine& end) const {
         while (points.size() > 3 &&
-               dot(points.back() + shift_to(points.back(), end.foot) - end.foot, end.outward) > 0.25)
+               dot(points.back() + lattice_.shift_to(points.back(), end.foot) - end.foot, end.outward) > 0.25)
             points.pop_back();
     }
 
