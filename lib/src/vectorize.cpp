@@ -258,6 +258,7 @@ int thread_count(const VectorizeOptions& options) {
 ProfileOptions profile_options(const Traced& traced) {
     ProfileOptions options;
     options.noise = traced.noise;
+    options.least_gain = 1e-5 * traced.energy;
     options.reach = std::clamp(0.06 * std::min(traced.lattice.width, traced.lattice.height), 8.0, 64.0);
     options.most_profiles = static_cast<std::size_t>(std::clamp(traced.lattice.size() / 4096, 16, 400));
     return options;
