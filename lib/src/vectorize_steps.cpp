@@ -42,7 +42,7 @@ class BorderTracer {
   private:
     std::uint32_t label(int x, int y) const {
         const int i = lattice_.index(x, y);
-        return i < 0 ? 0xffffffffu : regions_.label[i];
+        return i < 0 ? 0xffffffffu : regions_.at(i);
     }
     // Texels left and right of the lattice edge that leaves the corner in a direction.
     std::pair<Corner, Corner> sides(Corner c, int dir) const {
