@@ -121,12 +121,6 @@ std::vector<Chain> clip_chains(const std::vector<Chain>& chains, int margin, con
 // Standard deviation of the map's grain, robust against edges.
 double estimate_noise(const Image& map, const Lattice& lattice);
 
-// Exact Euclidean distance of every texel with mask != 0 to the nearest texel with mask == 0.
-std::vector<float> distance_inside(const std::vector<std::uint8_t>& mask, const Lattice& lattice);
-
-// Thins a mask to lines one texel wide that keep its topology.
-void thin_mask(std::vector<std::uint8_t>& mask, const Lattice& lattice);
-
 // Lines narrower than twice `radius` texels are looked for; below `widest`, only those on level ground far to both sides.
 struct LineScale {
     double radius = 0.0;

@@ -1,6 +1,7 @@
 // Connected parts by union and find over runs.
 #include "vectorize_parts.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace burin::vectorizing {
@@ -69,11 +70,11 @@ class Connector {
 
 }  // namespace
 
-std::uint32_t Parts::at(int x, int y, std::uint32_t none) const {
+std::size_t Parts::find(int x, int y) const {
     const auto begin = runs.begin() + static_cast<std::ptrdiff_t>(row_start[y]);
     const auto end = runs.begin() + static_cast<std::ptrdiff_t>(row_start[y + 1]);
     const auto after = std::upper_bound(begin, end, x, [](int value, const Run& run) { return value < run.begin; });
-    return after != begin && x < (after - 1)->end ? (after - 1)->part : none;
+    return static_cast<std::size_t>((after != begin && x < (after - 1)->end ? after - 1 : end) - runs.begin());
 }
 
 void connect_runs(Parts& parts, const Lattice& lattice, bool corners) { Connector(parts, lattice, corners).run(); }

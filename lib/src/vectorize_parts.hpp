@@ -22,8 +22,8 @@ struct Parts {
     std::vector<std::size_t> row_start;  // index of each row's first run, and the end
     std::uint32_t count = 0;
 
-    // The part that texel x of row y lies in, or `none`.
-    std::uint32_t at(int x, int y, std::uint32_t none) const;
+    // Index of the run that texel x of row y lies in, or row_start[y + 1].
+    std::size_t find(int x, int y) const;
 };
 
 // Joins runs of one kind that touch: with a side, or with a corner where `corners` says so.
