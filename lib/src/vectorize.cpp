@@ -270,6 +270,26 @@ Error stopped() { return {ErrorCode::invalid_argument, "vectorize: stopped by th
 
 }  // namespace
 
+Result<SoftGround> separate_ground(const HeightMap& map, const VectorizeOptions& options) {
+    const Status checked = check_options(map, options);
+    if (!checked) return checked.error();
+    const Wrap wrap = choose_wrap(map.image, options.wrap);
+    const Lattice lattice{map.image.width, map.image.height, wrap == Wrap::repeat};
+    const Image ground = soft_ground(map.image, lattice, estimate_noise(map.image, lattice));
+    SoftGround separated{map, 0.0};
+    double square = 0.0;
+    float highest = 1.0f;
+    for (std::size_t i = 0; i < ground.texels.size(); ++i) {
+        square += static_cast<double>(ground.texels[i]) * ground.texels[i];
+        separated.detail.image.texels[i] -= ground.texels[i];
+        highest = std::max(highest, separated.detail.image.texels[i]);
+    }
+    // Where the ground was low the rest would stick out of the object surface: all of it goes down.
+    for (float& value : separated.detail.image.texels) value = std::max(0.0f, value - (highest - 1.0f));
+    separated.deviation = std::sqrt(square / static_cast<double>(ground.texels.size()));
+    return separated;
+}
+
 Result<TracedMap> trace_map(const HeightMap& map, const VectorizeOptions& options, const Progress& progress) {
     const Status checked = check_options(map, options);
     if (!checked) return checked.error();

@@ -110,6 +110,9 @@ struct Traced {
     Regions regions;
 };
 
+// Ramps and vignettes of the map, whose mean is 0: what is gentler than walls and wider than detail.
+Image soft_ground(const Image& map, const Lattice& lattice, double noise);
+
 // The map with a margin that mirrors it, and back.
 Image mirror_margin(const Image& map, int margin);
 Image crop_margin(const Image& map, int margin, const Lattice& lattice);
