@@ -29,12 +29,12 @@ void settle_levels(Regions& regions, const Image& map, const std::vector<Owner>&
     const std::size_t count = regions.level.size();
     std::vector<float> furthest(count, 0.0f);
     for (std::size_t i = 0; i < owners.size(); ++i) {
-        float& f = furthest[regions.label[i]];
+        float& f = furthest[regions.at(i)];
         f = std::max(f, std::min(owners[i].distance, static_cast<float>(reach)));
     }
     std::vector<std::vector<float>> values(count);
     for (std::size_t i = 0; i < owners.size(); ++i) {
-        const std::uint32_t r = regions.label[i];
+        const std::uint32_t r = regions.at(i);
         if (owners[i].distance >= 0.6f * furthest[r]) values[r].push_back(map.texels[i]);
     }
     for (std::size_t r = 0; r < count; ++r)
@@ -65,7 +65,7 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
     for (std::size_t i = 0; i < owners.size(); ++i) {
         if (!counts(owners[i])) continue;
         const Chain& chain = chains[owners[i].chain].chain;
-        const std::uint32_t region = chain.kind != ChainKind::step ? regions.label[i]
+        const std::uint32_t region = chain.kind != ChainKind::step ? regions.at(i)
                                      : owners[i].offset < 0.0f     ? chain.left_region
                                                                    : chain.right_region;
         values[next[bin_of(owners[i])]++] = map.texels[i] - static_cast<float>(regions.level[region]);
@@ -229,7 +229,7 @@ void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, cons
         bool inside = false;
         const double h = value_at(set.profiles[fitted.profile], owners[i].offset, inside);
         if (!inside || owners[i].beyond) continue;
-        const double d = map.texels[i] - regions.level[regions.label[i]];
+        const double d = map.texels[i] - regions.level[regions.at(i)];
         fitted.gain += d * d - (d - h) * (d - h);
     }
 }

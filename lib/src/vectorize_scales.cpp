@@ -346,7 +346,7 @@ void measure_scales(std::vector<FittedChain>& chains, const ProfileSet& set, con
                 const double t = piece.t0 + (piece.t1 - piece.t0) * place.along;
                 samples.push_back({static_cast<float>((begin + t * l) / course.spacing()),
                                    static_cast<float>(place.offset),
-                                   map.texels[texel] - static_cast<float>(regions.level[regions.label[texel]])});
+                                   map.texels[texel] - static_cast<float>(regions.level[regions.at(texel)])});
             });
         }
         ScaleFit fit(course, profile, samples);
