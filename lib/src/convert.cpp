@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <functional>
 #include <optional>
 #include <stdexcept>
 
 #include <burin/compare.hpp>
-#include <burin/rasterize.hpp>
+#include <burin/reconstruct.hpp>
 
 #include "resolve_curve.hpp"
 
@@ -66,23 +68,26 @@ void count_elements(const ResolvedPattern& pattern, double texels_per_metre, Con
 constexpr double kPathLikeShare = 0.35;
 constexpr double kAccidentShare = 0.1;
 
-// The figures of the textures as they are stored.
+// The heights of the textures as they are stored.
+Result<Image> reconstruct(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail,
+                          const ReconstructOptions& options) {
+    auto heights = reconstruct_heights(textures, detail, map.image.width, map.image.height, options);
+    // What burin packed breaks the format: a bug, whatever the map.
+    if (!heights && heights.error().code == ErrorCode::invalid_input)
+        throw std::logic_error("the packed pattern breaks the format: " + heights.error().message);
+    return heights;
+}
+
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
                ConvertStats& stats) {
-    const auto unpacked = unpack_textures(textures, detail);
-    // What burin packed breaks the format: a bug, whatever the map.
-    if (!unpacked && unpacked.error().code == ErrorCode::invalid_input)
-        throw std::logic_error("the packed pattern breaks the format: " + unpacked.error().message);
-    if (!unpacked) return unpacked.error();
-    RasterizeOptions options;
-    options.threads = threads;
-    options.level_tolerance = 4e-5;  // levels and heights come from 16-bit codes
-    const Image heights = rasterize_height(unpacked->pattern, map.image.width, map.image.height, options);
-    const Comparison figures = compare_heights(heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp);
+    const auto heights = reconstruct(map, textures, detail, {.threads = threads});
+    if (!heights) return heights.error();
+    const Comparison figures = compare_heights(*heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp);
     stats.explained = figures.explained;
     stats.path_like = figures.explained >= kPathLikeShare;
     stats.rms = figures.rms;
     stats.p999 = figures.p999;
+    stats.p999_without_smooth = figures.p999_without_smooth;
     stats.max = figures.max;
     return Done{};
 }
@@ -91,10 +96,6 @@ struct Packed {
     PackedTextures textures;
     PathDetail detail;
 };
-
-std::size_t texture_bytes(const PackedTextures& textures) {
-    return (textures.grid.size() + textures.data.size()) * sizeof(std::uint32_t);
-}
 
 // Resolve, grid, pack.
 Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const ConvertOptions& options,
@@ -138,6 +139,7 @@ struct Candidate {
     Vectorized traced;
     Packed packed;
     ConvertStats stats;  // counts and figures of this candidate
+    std::size_t bytes() const { return stats.grid_bytes + stats.data_bytes; }
 };
 
 Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
@@ -153,25 +155,24 @@ Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, cons
     return candidate;
 }
 
-// Vectorizes with ever fewer elements until the textures keep to the budget.
-Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
-                               const Progress& progress, StageClock& clock) {
+// Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
+Result<Candidate> fit_within(const TracedMap& traced, const HeightMap& map, const ConvertOptions& options,
+                             std::size_t budget, const Progress& progress, StageClock& clock) {
+    const bool asked = options.max_texture_bytes > 0;
+    const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
     VectorizeOptions vectorize = options.vectorize;
     vectorize.threads = options.threads;
-    if (!clock.begin("vectorize")) return stopped();
-    const auto traced = trace_map(map, vectorize, progress);
-    if (!traced) return traced.error();
-    for (int attempt = 0;; ++attempt) {
+    for (int attempt = 1;; ++attempt) {
         if (!clock.begin("vectorize")) return stopped();
-        auto fitted = fit_traced_map(*traced, map, vectorize, progress);
+        auto fitted = fit_traced_map(traced, map, vectorize, progress);
         if (!fitted) return fitted.error();
         auto candidate = pack_and_measure(std::move(*fitted), map, options, budget, clock);
         if (!candidate) return candidate.error();
-        const std::size_t bytes = texture_bytes(candidate->packed.textures);
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
-        if (bytes <= budget || attempt == 3 || elements <= 16) return candidate;
+        if (candidate->bytes() <= budget || attempt == most_attempts || elements <= fewest) return candidate;
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
-        vectorize.most_elements = std::max(16, static_cast<int>(most * 0.85 * static_cast<double>(budget) / bytes));
+        const double share = 0.85 * static_cast<double>(budget) / static_cast<double>(candidate->bytes());
+        vectorize.most_elements = std::max(fewest, static_cast<int>(most * share));
     }
 }
 
@@ -210,6 +211,7 @@ Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, co
     if (!refine_pattern(refined.pattern, map.image, refinement)) return candidate;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
     if (!better || better->stats.explained < candidate.stats.explained) return candidate;
+    if (options.max_texture_bytes > 0 && better->bytes() > budget) return candidate;
     return better;
 }
 
@@ -223,35 +225,152 @@ Result<Candidate> without_accidents(Candidate candidate, const HeightMap& map, c
     return pack_and_measure(std::move(empty), map, options, budget, clock);
 }
 
+// The best paths for one tolerance and one budget.
+Result<Candidate> best_within(const TracedMap& traced, const HeightMap& map, const ConvertOptions& options,
+                              std::size_t budget, const Progress& progress, StageClock& clock) {
+    auto candidate = fit_within(traced, map, options, budget, progress, clock);
+    if (!candidate) return candidate.error();
+    const double traced_explained = candidate->stats.explained;
+    candidate = without_accidents(std::move(*candidate), map, options, budget, clock);
+    if (candidate) candidate = refine_candidate(std::move(*candidate), map, options, budget, clock);
+    if (candidate) candidate->stats.traced_explained = traced_explained;
+    return candidate;
+}
+
+// A bound that no conversion kept, and the value that one did keep.
+Error cannot_keep(const std::string& bound, const std::string& why, const std::string& works) {
+    return {ErrorCode::invalid_argument, bound + " cannot be kept: " + why + "; " + works + " works"};
+}
+
+// Looks for a number of bytes that can be kept, to be told: what works is what was tried.
+Result<Candidate> refuse_bytes(const TracedMap& traced, const HeightMap& map, ConvertOptions options,
+                               std::size_t reached, const Progress& progress, StageClock& clock) {
+    const std::string bound = "a limit of " + std::to_string(options.max_texture_bytes) + " bytes for both textures";
+    const std::string why = "giving up elements came down to " + std::to_string(reached) + " bytes";
+    while (true) {
+        options.max_texture_bytes = std::max(reached, options.max_texture_bytes + options.max_texture_bytes / 2);
+        const auto kept = best_within(traced, map, options, options.max_texture_bytes, progress, clock);
+        if (!kept) return kept.error();
+        if (kept->bytes() <= options.max_texture_bytes)
+            return cannot_keep(bound, why, std::to_string(options.max_texture_bytes));
+    }
+}
+
+std::string percent(double share, double direction) {
+    char text[32];
+    // Three digits, rounded away from what would not hold.
+    const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(std::max(share * 100.0, 1e-6))));
+    const double value = direction > 0.0 ? std::ceil(share * 100.0 * scale) : std::round(share * 100.0 * scale);
+    std::snprintf(text, sizeof text, "%.6g", value / scale);
+    return text;
+}
+
+Error refuse_error(const ConvertOptions& options, const Candidate& best) {
+    std::string why = "the closest paths err by " + percent(best.stats.p999, 0.0) + " % in the 99.9th percentile";
+    if (best.stats.p999_without_smooth < 0.8 * best.stats.p999)
+        why += ", by " + percent(best.stats.p999_without_smooth, 0.0) + " % but for soft ground, which is no path";
+    return cannot_keep("a height error of " + percent(options.max_error, 0.0) + " % of range", why,
+                       percent(best.stats.p999, 1.0));
+}
+
+// Fits ever closer until 99.9 % of the texels keep the bound, or closer paths are no better.
+Result<Candidate> closer_within(const TracedMap& traced, const HeightMap& map, ConvertOptions options, Candidate best,
+                                const Progress& progress, StageClock& clock) {
+    const bool bytes_bound = options.max_texture_bytes > 0;
+    const std::size_t budget = bytes_bound ? options.max_texture_bytes : map.image.texels.size();
+    constexpr std::size_t kElementBytes = 36;  // with its share of the grid
+    if (!bytes_bound) options.vectorize.most_elements = static_cast<int>(std::max<std::size_t>(budget / kElementBytes, 64));
+    for (int round = 0; round < 3 && best.stats.p999 > options.max_error; ++round) {
+        options.vectorize.tolerance = best.traced.tolerance / 2.0;
+        auto closer = best_within(traced, map, options, budget, progress, clock);
+        if (!closer || (bytes_bound && closer->bytes() > budget)) break;  // no room for closer paths
+        if (closer->stats.p999 > 0.98 * best.stats.p999) break;
+        best = std::move(*closer);
+    }
+    if (best.stats.p999 > options.max_error) return refuse_error(options, best);
+    return best;
+}
+
+Result<Candidate> within_bounds(const TracedMap& traced, const HeightMap& map, const ConvertOptions& options,
+                                const Progress& progress, StageClock& clock) {
+    const bool bytes_bound = options.max_texture_bytes > 0;
+    const std::size_t budget = bytes_bound ? options.max_texture_bytes : default_budget(map.image.texels.size());
+    auto candidate = best_within(traced, map, options, budget, progress, clock);
+    if (!candidate) return candidate.error();
+    if (bytes_bound && candidate->bytes() > budget)
+        return refuse_bytes(traced, map, options, candidate->bytes(), progress, clock);
+    if (options.max_error <= 0.0 || candidate->stats.p999 <= options.max_error) return candidate;
+    return closer_within(traced, map, options, std::move(*candidate), progress, clock);
+}
+
+void count_kinds(const Pattern& pattern, ConvertStats& stats) {
+    for (const Path& path : pattern.paths) switch (path_kind(pattern, path)) {
+        case PathKind::groove: ++stats.grooves; break;
+        case PathKind::ridge: ++stats.ridges; break;
+        case PathKind::step: ++stats.steps; break;
+    }
+}
+
+// The certificate by class. Drawn again only where both classes are there.
+Status share_out(const HeightMap& map, const Candidate& candidate, int threads, ConvertStats& stats) {
+    const bool lines = stats.grooves + stats.ridges > 0;
+    double steps = lines ? 0.0 : stats.explained;
+    if (lines && stats.steps > 0) {
+        const auto heights = reconstruct(map, candidate.packed.textures, candidate.packed.detail,
+                                         {.steps_only = true, .threads = threads});
+        if (!heights) return heights.error();
+        steps = compare_heights(*heights, map.image, stats.repeat ? Wrap::repeat : Wrap::clamp).explained;
+    }
+    stats.shares = {steps, stats.explained - steps, 1.0 - stats.explained};
+    return Done{};
+}
+
 }  // namespace
+
+Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& options, const Progress& progress) {
+    if (!(options.max_error >= 0.0 && options.max_error <= 1.0))
+        return Error{ErrorCode::invalid_argument,
+                     "max_error: " + std::to_string(options.max_error) + " of the range; 0 to 1 would work"};
+    std::vector<std::pair<std::string, double>> seconds;
+    StageClock clock(progress, seconds);
+    VectorizeOptions tracing = options.vectorize;
+    tracing.threads = options.threads;
+    if (!clock.begin("vectorize")) return stopped();
+    const auto traced = trace_map(map, tracing, progress);
+    if (!traced) return traced.error();
+    auto candidate = within_bounds(*traced, map, options, progress, clock);
+    if (!candidate) return candidate.error();
+
+    FoundPattern found;
+    found.stats = candidate->stats;
+    found.stats.noise = candidate->traced.noise;
+    found.stats.tolerance = candidate->traced.tolerance;
+    count_kinds(candidate->traced.pattern, found.stats);
+    if (!clock.begin("measure")) return stopped();
+    if (const Status shared = share_out(map, *candidate, options.threads, found.stats); !shared) return shared.error();
+    clock.end();
+    found.stats.seconds = std::move(seconds);
+    found.pattern = std::move(candidate->traced.pattern);
+    found.textures = std::move(candidate->packed.textures);
+    found.detail = std::move(candidate->packed.detail);
+    return found;
+}
 
 Result<Converted> convert_map(const HeightMap& map, const Model& model, const ConvertOptions& options,
                               const Progress& progress) {
-    Converted converted;
-    std::vector<std::pair<std::string, double>> seconds;
-    StageClock clock(progress, seconds);
-    const std::size_t budget = options.max_texture_bytes > 0 ? options.max_texture_bytes
-                                                             : default_budget(map.image.texels.size());
-    auto candidate = trace_within(map, options, budget, progress, clock);
-    const double traced_explained = candidate ? candidate->stats.explained : 0.0;
-    if (candidate) candidate = without_accidents(std::move(*candidate), map, options, budget, clock);
-    if (candidate) candidate = refine_candidate(std::move(*candidate), map, options, budget, clock);
-    if (!candidate) return candidate.error();
-
+    auto found = find_pattern(map, options, progress);
+    if (!found) return found.error();
+    Converted converted{std::move(*found), {}};
+    StageClock clock(progress, converted.stats.seconds);
     if (!clock.begin("bake")) return stopped();
-    const Pattern& pattern = candidate->traced.pattern;
+    const Pattern& pattern = converted.pattern;
     const Fallback fallback = bake_fallback(map.image, pattern.size, pattern.depth, pattern.wrap, options.fallback);
 
     if (!clock.begin("write")) return stopped();
-    auto bytes = write_glb(model, candidate->packed.textures, candidate->packed.detail, fallback, options.attach);
+    auto bytes = write_glb(model, converted.textures, converted.detail, fallback, options.attach);
     if (!bytes) return bytes.error();
     clock.end();
     converted.glb = std::move(*bytes);
-    converted.stats = candidate->stats;
-    converted.stats.traced_explained = traced_explained;
-    converted.stats.noise = candidate->traced.noise;
-    converted.stats.tolerance = candidate->traced.tolerance;
-    converted.stats.seconds = std::move(seconds);
     converted.stats.file_bytes = converted.glb.size();
     return converted;
 }
