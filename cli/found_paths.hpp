@@ -21,7 +21,7 @@ Result<Vec2> choose_size(const Arguments& arguments, const Image& map, const Mat
 ConvertOptions search_options(const Arguments& arguments, Vec2 size);
 
 // The files to write, main one first, still without their writers. Fails with invalid_argument: a suffix that is not
-// written, an output that is an input or another output.
+// written, an output that is an input.
 Result<std::vector<OutputFile>> name_outputs(const Arguments& arguments, const std::string& suffix,
                                              std::initializer_list<std::string> inputs);
 

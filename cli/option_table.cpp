@@ -59,7 +59,7 @@ std::vector<OptionSpec> make_table() {
          "farthest a curve may lie from the traced line; 0 chooses by the map's grain"},
         {"--max-error", "convert vectorize", number, "PERCENT", "% of range", "", 1e-3, 100, "", false,
          "height error that 99.9 % of the texels keep; curves come closer until they do, or an error says what works"},
-        {"--max-bytes", "convert vectorize", bytes, "BYTES", "bytes", "", 256, 1 << 30, "", false,
+        {"--max-bytes", "convert vectorize", bytes, "BYTES", "bytes", "", 1, 1e9, "", false,
          "most that both textures take as uploaded, K and M for KiB and MiB; paths are given up until they do"},
         {"--cell-size", "convert", number, "METRES", "m", "0", 0, 1e6, "", false,
          "side of a grid cell; 0 chooses by a cost model"},

@@ -9,18 +9,6 @@
 namespace burin::cli {
 namespace {
 
-// Whether two names stand for one file; also where it is still to be made.
-bool same_file(const std::string& a, const std::string& b) {
-    if (a.empty() || b.empty()) return false;
-    // An error, such as a file that is not there, means that they are not the same.
-    std::error_code error;
-    if (std::filesystem::equivalent(a, b, error) && !error) return true;
-    const auto whole_a = std::filesystem::weakly_canonical(a, error);
-    if (error) return false;
-    const auto whole_b = std::filesystem::weakly_canonical(b, error);
-    return !error && whole_a == whole_b;
-}
-
 void remove_all(const std::vector<OutputFile>& outputs, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         std::error_code error;
@@ -31,16 +19,14 @@ void remove_all(const std::vector<OutputFile>& outputs, std::size_t count) {
 }  // namespace
 
 Status check_outputs(const std::vector<OutputFile>& outputs, std::initializer_list<std::string> inputs) {
-    const auto refuse = [](const OutputFile& output, const std::string& what) {
-        return Error{ErrorCode::invalid_argument, output.option + " '" + output.path + "' is the file " + what +
-                                                      ", and would replace it; another name works"};
-    };
-    for (const OutputFile& output : outputs) {
-        for (const std::string& input : inputs)
-            if (same_file(output.path, input)) return refuse(output, "'" + input + "' that is read");
-        for (const OutputFile& other : outputs)
-            if (&other < &output && same_file(output.path, other.path)) return refuse(output, "of " + other.option);
-    }
+    for (const OutputFile& output : outputs)
+        for (const std::string& input : inputs) {
+            // An error, such as a file that is not there, means that they are not the same.
+            std::error_code error;
+            if (!output.path.empty() && !input.empty() && std::filesystem::equivalent(output.path, input, error) && !error)
+                return Error{ErrorCode::invalid_argument, output.option + " '" + output.path + "' is the file '" + input +
+                                                              "' that is read, and would replace it; another name works"};
+        }
     return Done{};
 }
 

@@ -1,5 +1,5 @@
-// What holds for every file that a command writes: it is none of the files that the command reads, nor another one that
-// it writes, and it is gone when the command fails after all.
+// What holds for every file that a command writes: it is none of the files that the command reads, and it is gone when
+// the command fails after all.
 #pragma once
 
 #include <functional>
@@ -23,8 +23,8 @@ struct OutputFile {
     Writer write;
 };
 
-// Fails with invalid_argument when an output is one of the files `inputs` or another output, by whatever name: another
-// path, a link. An empty name stands for none.
+// Fails with invalid_argument when an output is one of the files `inputs`, by whatever name: another path, a link. An
+// empty name stands for none.
 Status check_outputs(const std::vector<OutputFile>& outputs, std::initializer_list<std::string> inputs);
 
 // The name ends in one of `suffixes` ("exr|tif"), in small letters or capital ones.

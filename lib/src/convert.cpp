@@ -252,25 +252,28 @@ Result<Candidate> refuse_bytes(const TracedMap& traced, const HeightMap& map, Co
         const auto kept = best_within(traced, map, options, options.max_texture_bytes, progress, clock);
         if (!kept) return kept.error();
         if (kept->bytes() <= options.max_texture_bytes)
-            return cannot_keep(bound, why, std::to_string(options.max_texture_bytes));
+            return cannot_keep(bound, why, std::to_string(options.max_texture_bytes) + " bytes");
     }
 }
 
-std::string percent(double share, double direction) {
+std::string percent(double share) {
     char text[32];
-    // Three digits, rounded away from what would not hold.
-    const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(std::max(share * 100.0, 1e-6))));
-    const double value = direction > 0.0 ? std::ceil(share * 100.0 * scale) : std::round(share * 100.0 * scale);
-    std::snprintf(text, sizeof text, "%.6g", value / scale);
+    std::snprintf(text, sizeof text, "%.4g", share * 100.0);
     return text;
 }
 
+// Three digits, upwards: what was reached keeps within it.
+std::string percent_above(double share) {
+    const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(std::max(share * 100.0, 1e-6))));
+    return percent(std::ceil(share * 100.0 * scale) / scale / 100.0);
+}
+
 Error refuse_error(const ConvertOptions& options, const Candidate& best) {
-    std::string why = "the closest paths err by " + percent(best.stats.p999, 0.0) + " % in the 99.9th percentile";
+    std::string why = "the closest paths err by " + percent(best.stats.p999) + " % in the 99.9th percentile";
     if (best.stats.p999_without_smooth < 0.8 * best.stats.p999)
-        why += ", by " + percent(best.stats.p999_without_smooth, 0.0) + " % but for soft ground, which is no path";
-    return cannot_keep("a height error of " + percent(options.max_error, 0.0) + " % of range", why,
-                       percent(best.stats.p999, 1.0));
+        why += ", by " + percent(best.stats.p999_without_smooth) + " % but for soft ground, which is no path";
+    return cannot_keep("a height error of " + percent(options.max_error) + " % of range", why,
+                       percent_above(best.stats.p999) + " %");
 }
 
 // Fits ever closer until 99.9 % of the texels keep the bound, or closer paths are no better.

@@ -33,7 +33,7 @@ code{font:13px/1.5 ui-monospace,"DejaVu Sans Mono",monospace;overflow-wrap:anywh
 .tile b{display:block;font-size:22px;font-weight:600;font-variant-numeric:tabular-nums}
 .tile span{color:#666;font-size:13px}
 .shares{display:flex;height:22px;border-radius:6px;overflow:hidden;background:#d8d8d4}
-.overview{display:grid;grid-template-columns:repeat(auto-fit,minmax(440px,1fr));gap:16px}
+.overview{display:grid;grid-template-columns:repeat(auto-fit,minmax(540px,1fr));gap:16px}
 .spot{display:grid;grid-template-columns:repeat(4,1fr);gap:8px;margin-bottom:18px}
 .spot h3{grid-column:1/-1;font-size:14px;font-weight:600;margin:4px 0 0}
 figure{margin:0;background:#fff;border-radius:8px;overflow:hidden}
@@ -45,7 +45,7 @@ figcaption{padding:6px 10px;font-size:13px;color:#444}
 .picture path{fill:none;stroke-width:1.6px;vector-effect:non-scaling-stroke;stroke-linejoin:round}
 .spot path{stroke-width:1.4px}
 .key{display:inline-block;width:11px;height:11px;border-radius:2px;margin:0 4px 0 10px;vertical-align:-1px}
-.legend{display:flex;align-items:center;gap:8px;padding:0 10px 8px;font-size:12px;color:#444}
+.legend{display:flex;align-items:center;gap:8px;padding:4px 0 2px;font-size:12px;color:#444}
 .legend i{flex:1;height:12px;border-radius:3px}
 .card{background:#fff;border-radius:8px;padding:14px 18px}
 .histogram{width:100%;max-width:900px;font-size:12px;fill:#555;display:block}
@@ -112,13 +112,13 @@ RgbaImage color_error(const Image& error, double full) {
     return draw_error(error, Image(error.width, error.height, 0.0f), full);
 }
 
-// A picture with its caption, and what is laid over it.
-Result<std::string> figure(const RgbaImage& picture, const std::string& name, const std::string& over,
-                           const std::string& below) {
+// A picture with its name; `over` is laid over it, `below` explains it.
+Result<std::string> figure(const RgbaImage& picture, const std::string& name, const std::string& over = "",
+                           const std::string& below = "") {
     const auto image = image_tag(picture, name);
     if (!image) return image.error();
-    return "<figure><div class=\"picture\">" + *image + over + "</div><figcaption>" + name + "</figcaption>" + below +
-           "</figure>\n";
+    return "<figure><div class=\"picture\">" + *image + over + "</div><figcaption>" + name + below +
+           "</figcaption></figure>\n";
 }
 
 // Collects parts; the first failure is the answer.
@@ -146,14 +146,14 @@ std::string head(const Scene& scene, const ReportText& text) {
     std::string page = "<h1>" + escaped(text.title) + "</h1><p>" + std::to_string(scene.map.image.width) + " x " +
                        std::to_string(scene.map.image.height) + " texels, " + scene.map.format + ", " +
                        std::to_string(scene.map.bit_depth) + " bits, channel " + escaped(scene.map.channel) +
-                       "</p><div class=\"tiles\">" + tile(percent(stats.explained, 2), "of the detail explained") +
+                       "</p><div class=\"tiles\">" + tile(percent(std::floor(stats.explained * 1e4) / 1e4, 2), "of the detail explained") +
                        tile(percent(stats.rms, 3), "RMS height error") +
                        tile(percent(stats.p999, 2), "99.9th percentile of the error") +
                        tile(std::to_string(stats.paths), "paths") +
                        tile(std::to_string(stats.lines + stats.quadratics), "elements") +
                        tile(decimal(static_cast<double>(bytes) / 1024.0, 1) + " KiB", "both textures") + "</div>";
     const auto part = [](double share, const char* color) {
-        return "<div style=\"width:" + percent(std::clamp(share, 0.0, 1.0), 3) + ";background:" + color + "\"></div>";
+        return "<div style=\"width:" + decimal(100.0 * std::clamp(share, 0.0, 1.0), 3) + "%;background:" + color + "\"></div>";
     };
     const std::string lines = kKindColors[0], steps = kKindColors[2];
     page += "<div class=\"shares\">" + part(shares.steps, kKindColors[2]) + part(shares.lines, kKindColors[0]) +
@@ -181,10 +181,10 @@ void add_overview(const Scene& scene, Page& page) {
     const Image built = shrink(scene.reconstruction, kOverviewSide, Shrink::mean);
     const Image error = shrink(scene.error, kOverviewSide, Shrink::farthest);
     page.add("<h2>The whole map</h2><div class=\"overview\">");
-    page.add(figure(grey, "the map", "", ""));
-    page.add(figure(draw_grey(built, scene.low, scene.high), "what the paths make of it", "", ""));
+    page.add(figure(grey, "the map"));
+    page.add(figure(draw_grey(built, scene.low, scene.high), "what the paths make of it"));
     page.add(figure(color_error(error, scene.full), "error", "", error_legend(scene.full)));
-    page.add(figure(grey, "paths over the map:" + kind_keys(), draw_paths(scene.found.pattern, scene.map.image, scene.whole()), ""));
+    page.add(figure(grey, "paths over the map", draw_paths(scene.found.pattern, scene.map.image, scene.whole()), kind_keys()));
     page.add("</div>");
 }
 
@@ -208,10 +208,10 @@ void add_spot(const Scene& scene, const Spot& spot, const ResolvedPattern& surfa
     const std::string paths = draw_paths(scene.found.pattern, scene.map.image, spot.region);
     page.add("<div class=\"spot\"><h3>texel " + std::to_string(spot.x) + ", " + std::to_string(spot.y) + ": " +
              percent(std::abs(spot.error), 2) + " of range too " + (spot.error > 0.0 ? "high" : "low") + "</h3>");
-    page.add(figure(grey(map), "map", paths, ""));
-    page.add(figure(grey(built), "reconstruction", paths, ""));
-    page.add(figure(color_error(crop(scene.error, spot.region), scene.full), "error", paths, ""));
-    page.add(figure(grey(surface_of(surface, scene, spot.region, threads)), "the surface, 8 times finer", "", ""));
+    page.add(figure(grey(map), "map", paths));
+    page.add(figure(grey(built), "reconstruction", paths));
+    page.add(figure(color_error(crop(scene.error, spot.region), scene.full), "error", paths));
+    page.add(figure(grey(surface_of(surface, scene, spot.region, threads)), "the surface, 8 times finer"));
     page.add("</div>\n");
 }
 
