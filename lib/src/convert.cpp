@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 
 #include <burin/compare.hpp>
@@ -155,18 +155,41 @@ Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, cons
     return candidate;
 }
 
-// Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
-Result<Candidate> fit_within(const TracedMap& traced, const HeightMap& map, const ConvertOptions& options,
-                             std::size_t budget, const Progress& progress, StageClock& clock) {
-    const bool asked = options.max_texture_bytes > 0;
-    const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
+VectorizeOptions vectorize_options(const ConvertOptions& options) {
     VectorizeOptions vectorize = options.vectorize;
     vectorize.threads = options.threads;
+    return vectorize;
+}
+
+// A map, and what of it was traced: the map itself, or the map without its soft ground.
+struct Source {
+    const HeightMap& map;
+    std::shared_ptr<const HeightMap> separated;  // null: the map itself
+    TracedMap traced;
+    const HeightMap& detail() const { return separated ? *separated : map; }
+};
+
+Result<Source> trace_source(const HeightMap& map, std::shared_ptr<const HeightMap> separated, const ConvertOptions& options,
+                            const Progress& progress, StageClock& clock) {
+    if (!clock.begin("vectorize")) return stopped();
+    Source source{map, std::move(separated), {}};
+    auto traced = trace_map(source.detail(), vectorize_options(options), progress);
+    if (!traced) return traced.error();
+    source.traced = std::move(*traced);
+    return source;
+}
+
+// Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
+Result<Candidate> fit_within(const Source& source, const ConvertOptions& options, std::size_t budget,
+                             const Progress& progress, StageClock& clock) {
+    const bool asked = options.max_texture_bytes > 0;
+    const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
+    VectorizeOptions vectorize = vectorize_options(options);
     for (int attempt = 1;; ++attempt) {
         if (!clock.begin("vectorize")) return stopped();
-        auto fitted = fit_traced_map(traced, map, vectorize, progress);
+        auto fitted = fit_traced_map(source.traced, source.detail(), vectorize, progress);
         if (!fitted) return fitted.error();
-        auto candidate = pack_and_measure(std::move(*fitted), map, options, budget, clock);
+        auto candidate = pack_and_measure(std::move(*fitted), source.map, options, budget, clock);
         if (!candidate) return candidate.error();
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
         if (candidate->bytes() <= budget || attempt == most_attempts || elements <= fewest) return candidate;
@@ -174,6 +197,34 @@ Result<Candidate> fit_within(const TracedMap& traced, const HeightMap& map, cons
         const double share = 0.85 * static_cast<double>(budget) / static_cast<double>(candidate->bytes());
         vectorize.most_elements = std::max(fewest, static_cast<int>(most * share));
     }
+}
+
+struct Start {
+    Source source;
+    Candidate candidate;
+};
+
+// The map as it is, or without its soft ground where that explains more: whether a ramp is ground or the side of a wide
+// bevel shows when its paths are drawn.
+Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                         const Progress& progress, StageClock& clock) {
+    constexpr double kLeastDeviation = 0.004, kMustGain = 0.002;
+    auto source = trace_source(map, nullptr, options, progress, clock);
+    if (!source) return source.error();
+    auto candidate = fit_within(*source, options, budget, progress, clock);
+    if (!candidate) return candidate.error();
+    if (!clock.begin("vectorize")) return stopped();
+    auto separated = separate_ground(map, vectorize_options(options));
+    if (!separated) return separated.error();
+    if (separated->deviation < kLeastDeviation) return Start{std::move(*source), std::move(*candidate)};
+    auto detail = std::make_shared<const HeightMap>(std::move(separated->detail));
+    auto other_source = trace_source(map, std::move(detail), options, progress, clock);
+    if (!other_source) return other_source.error();
+    auto other = fit_within(*other_source, options, budget, progress, clock);
+    if (!other) return other.error();
+    if (other->stats.explained < candidate->stats.explained + kMustGain)
+        return Start{std::move(*source), std::move(*candidate)};
+    return Start{std::move(*other_source), std::move(*other)};
 }
 
 // A step of the refinement looks at every texel within reach of every element: wide profiles on long paths would take
@@ -199,8 +250,9 @@ Unrefined reason_not_to_refine(const Candidate& candidate, const HeightMap& map,
 }
 
 // Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
-Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options,
+Result<Candidate> refine_candidate(Candidate candidate, const Source& source, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
+    const HeightMap& map = source.map;
     candidate.stats.unrefined = reason_not_to_refine(candidate, map, options);
     if (candidate.stats.unrefined != Unrefined::no) return candidate;
     if (!clock.begin("refine")) return stopped();
@@ -208,7 +260,7 @@ Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, co
     RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
     Vectorized refined = candidate.traced;
-    if (!refine_pattern(refined.pattern, map.image, refinement)) return candidate;
+    if (!refine_pattern(refined.pattern, source.detail().image, refinement)) return candidate;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
     if (!better || better->stats.explained < candidate.stats.explained) return candidate;
     if (options.max_texture_bytes > 0 && better->bytes() > budget) return candidate;
@@ -225,16 +277,24 @@ Result<Candidate> without_accidents(Candidate candidate, const HeightMap& map, c
     return pack_and_measure(std::move(empty), map, options, budget, clock);
 }
 
-// The best paths for one tolerance and one budget.
-Result<Candidate> best_within(const TracedMap& traced, const HeightMap& map, const ConvertOptions& options,
-                              std::size_t budget, const Progress& progress, StageClock& clock) {
-    auto candidate = fit_within(traced, map, options, budget, progress, clock);
-    if (!candidate) return candidate.error();
-    const double traced_explained = candidate->stats.explained;
-    candidate = without_accidents(std::move(*candidate), map, options, budget, clock);
-    if (candidate) candidate = refine_candidate(std::move(*candidate), map, options, budget, clock);
+// A candidate without what is no path, and refined.
+Result<Candidate> finish_candidate(Candidate fitted, const Source& source, const ConvertOptions& options,
+                                   std::size_t budget, StageClock& clock) {
+    const double traced_explained = fitted.stats.explained;
+    auto candidate = without_accidents(std::move(fitted), source.map, options, budget, clock);
+    if (candidate) candidate = refine_candidate(std::move(*candidate), source, options, budget, clock);
     if (candidate) candidate->stats.traced_explained = traced_explained;
     return candidate;
+}
+
+Result<Start> start_within(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                           const Progress& progress, StageClock& clock) {
+    auto start = trace_best(map, options, budget, progress, clock);
+    if (!start) return start.error();
+    auto finished = finish_candidate(std::move(start->candidate), start->source, options, budget, clock);
+    if (!finished) return finished.error();
+    start->candidate = std::move(*finished);
+    return start;
 }
 
 // A bound that no conversion kept, and the value that one did keep.
@@ -243,15 +303,15 @@ Error cannot_keep(const std::string& bound, const std::string& why, const std::s
 }
 
 // Looks for a number of bytes that can be kept, to be told: what works is what was tried.
-Result<Candidate> refuse_bytes(const TracedMap& traced, const HeightMap& map, ConvertOptions options,
-                               std::size_t reached, const Progress& progress, StageClock& clock) {
+Error refuse_bytes(const HeightMap& map, ConvertOptions options, std::size_t reached, const Progress& progress,
+                   StageClock& clock) {
     const std::string bound = "a limit of " + std::to_string(options.max_texture_bytes) + " bytes for both textures";
     const std::string why = "giving up elements came down to " + std::to_string(reached) + " bytes";
     while (true) {
         options.max_texture_bytes = std::max(reached, options.max_texture_bytes + options.max_texture_bytes / 2);
-        const auto kept = best_within(traced, map, options, options.max_texture_bytes, progress, clock);
+        const auto kept = start_within(map, options, options.max_texture_bytes, progress, clock);
         if (!kept) return kept.error();
-        if (kept->bytes() <= options.max_texture_bytes)
+        if (kept->candidate.bytes() <= options.max_texture_bytes)
             return cannot_keep(bound, why, std::to_string(options.max_texture_bytes) + " bytes");
     }
 }
@@ -277,15 +337,16 @@ Error refuse_error(const ConvertOptions& options, const Candidate& best) {
 }
 
 // Fits ever closer until 99.9 % of the texels keep the bound, or closer paths are no better.
-Result<Candidate> closer_within(const TracedMap& traced, const HeightMap& map, ConvertOptions options, Candidate best,
-                                const Progress& progress, StageClock& clock) {
+Result<Candidate> closer_within(const Source& source, ConvertOptions options, Candidate best, const Progress& progress,
+                                StageClock& clock) {
     const bool bytes_bound = options.max_texture_bytes > 0;
-    const std::size_t budget = bytes_bound ? options.max_texture_bytes : map.image.texels.size();
+    const std::size_t budget = bytes_bound ? options.max_texture_bytes : source.map.image.texels.size();
     constexpr std::size_t kElementBytes = 36;  // with its share of the grid
     if (!bytes_bound) options.vectorize.most_elements = static_cast<int>(std::max<std::size_t>(budget / kElementBytes, 64));
     for (int round = 0; round < 3 && best.stats.p999 > options.max_error; ++round) {
         options.vectorize.tolerance = best.traced.tolerance / 2.0;
-        auto closer = best_within(traced, map, options, budget, progress, clock);
+        auto closer = fit_within(source, options, budget, progress, clock);
+        if (closer) closer = finish_candidate(std::move(*closer), source, options, budget, clock);
         if (!closer || (bytes_bound && closer->bytes() > budget)) break;  // no room for closer paths
         if (closer->stats.p999 > 0.98 * best.stats.p999) break;
         best = std::move(*closer);
@@ -294,16 +355,16 @@ Result<Candidate> closer_within(const TracedMap& traced, const HeightMap& map, C
     return best;
 }
 
-Result<Candidate> within_bounds(const TracedMap& traced, const HeightMap& map, const ConvertOptions& options,
-                                const Progress& progress, StageClock& clock) {
+Result<Candidate> within_bounds(const HeightMap& map, const ConvertOptions& options, const Progress& progress,
+                                StageClock& clock) {
     const bool bytes_bound = options.max_texture_bytes > 0;
     const std::size_t budget = bytes_bound ? options.max_texture_bytes : default_budget(map.image.texels.size());
-    auto candidate = best_within(traced, map, options, budget, progress, clock);
-    if (!candidate) return candidate.error();
-    if (bytes_bound && candidate->bytes() > budget)
-        return refuse_bytes(traced, map, options, candidate->bytes(), progress, clock);
-    if (options.max_error <= 0.0 || candidate->stats.p999 <= options.max_error) return candidate;
-    return closer_within(traced, map, options, std::move(*candidate), progress, clock);
+    auto start = start_within(map, options, budget, progress, clock);
+    if (!start) return start.error();
+    const Candidate& first = start->candidate;
+    if (bytes_bound && first.bytes() > budget) return refuse_bytes(map, options, first.bytes(), progress, clock);
+    if (options.max_error <= 0.0 || first.stats.p999 <= options.max_error) return std::move(start->candidate);
+    return closer_within(start->source, options, std::move(start->candidate), progress, clock);
 }
 
 void count_kinds(const Pattern& pattern, ConvertStats& stats) {
@@ -336,12 +397,7 @@ Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& op
                      "max_error: " + std::to_string(options.max_error) + " of the range; 0 to 1 would work"};
     std::vector<std::pair<std::string, double>> seconds;
     StageClock clock(progress, seconds);
-    VectorizeOptions tracing = options.vectorize;
-    tracing.threads = options.threads;
-    if (!clock.begin("vectorize")) return stopped();
-    const auto traced = trace_map(map, tracing, progress);
-    if (!traced) return traced.error();
-    auto candidate = within_bounds(*traced, map, options, progress, clock);
+    auto candidate = within_bounds(map, options, progress, clock);
     if (!candidate) return candidate.error();
 
     FoundPattern found;
