@@ -44,7 +44,8 @@ figcaption{padding:6px 10px;font-size:13px;color:#444}
 .spot img{image-rendering:pixelated}
 .picture path{fill:none;stroke-width:1.6px;vector-effect:non-scaling-stroke;stroke-linejoin:round}
 .spot path{stroke-width:1.4px}
-.key{display:inline-block;width:11px;height:11px;border-radius:2px;margin:0 4px 0 10px;vertical-align:-1px}
+.key{white-space:nowrap;margin-left:10px}
+.key i{display:inline-block;width:11px;height:11px;border-radius:2px;margin-right:4px;vertical-align:-1px}
 .legend{display:flex;align-items:center;gap:8px;padding:4px 0 2px;font-size:12px;color:#444}
 .legend i{flex:1;height:12px;border-radius:3px}
 .card{background:#fff;border-radius:8px;padding:14px 18px}
@@ -74,7 +75,7 @@ std::string tile(const std::string& value, const std::string& name) {
 }
 
 std::string key(const std::string& color, const std::string& name) {
-    return "<span class=\"key\" style=\"background:" + color + "\"></span>" + name;
+    return "<span class=\"key\"><i style=\"background:" + color + "\"></i>" + name + "</span>";
 }
 
 std::string kind_keys() {
@@ -159,7 +160,7 @@ std::string head(const Scene& scene, const ReportText& text) {
     page += "<div class=\"shares\">" + part(shares.steps, kKindColors[2]) + part(shares.lines, kKindColors[0]) +
             "</div><p>" + key(steps, "steps and levels explain " + percent(shares.steps, 2)) +
             key(lines, "grooves and ridges on top " + percent(shares.lines, 2)) +
-            key("#d8d8d4", "left to the fallback maps " + percent(shares.left, 2)) + "</p>";
+            key("#d8d8d4", "left to the fallback maps " + percent(shares.left, 4)) + "</p>";
     for (const std::string& note : text.notes) page += "<p>" + escaped(note) + "</p>";
     return page;
 }

@@ -15,6 +15,7 @@ Result<Image> reconstruct_heights(const PackedTextures& textures, const PathDeta
     if (options.steps_only)
         std::erase_if(pattern.elements, [&](const ResolvedElement& e) { return !pattern.styles[e.style].step; });
     RasterizeOptions rasterize;
+    rasterize.samples = options.samples;
     rasterize.threads = options.threads;
     rasterize.level_tolerance = 4e-5;  // levels and heights come from 16-bit codes
     return rasterize_height(pattern, width, height, rasterize);

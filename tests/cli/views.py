@@ -7,6 +7,7 @@ import html.parser
 import json
 import os
 import re
+import shutil
 import struct
 import zlib
 
@@ -22,7 +23,7 @@ class Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
         self.open, self.tags, self.images, self.paths, self.headings = [], set(), [], {}, []
-        self.outside = []
+        self.outside, self.title = [], ""
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -49,6 +50,8 @@ class Page(html.parser.HTMLParser):
     def handle_data(self, data):
         if self.open and self.open[-1] == "h3":
             self.headings.append(data)
+        if self.open and self.open[-1] == "title":
+            self.title += data
 
 
 def size_of(png):
@@ -135,6 +138,15 @@ def main():
         low, high = described["values"]["source_low"], described["values"]["source_high"]
         verdicts.expect(low < 0 < high and abs(max(-low, high) - figures["max"]) < 1e-6,
                         f"from {low} to {high}, the largest error is {figures['max']}")
+        odd = os.path.join(folder, 'a<b>&"c.png')
+        shutil.copyfile(places["constant.png"], odd)
+        constant = harness.run(arguments.burin, ["vectorize", odd, "-o", name["svg"], "--report", name["html"]])
+        with open(name["html"], encoding="utf-8") as file:
+            empty = Page(file.read())
+        verdicts.expect(constant.status == 0 and empty.open == [], "an odd name", constant)
+        verdicts.expect(empty.title == 'a<b>&"c.png', f"the title is the file's name, {empty.title}")
+        verdicts.expect(len(empty.images) == 4 and empty.headings == [], "a constant map has no worst place")
+
         threads = harness.run(arguments.burin, words + ["--threads", "1"])
         with open(name["html"], encoding="utf-8") as file:
             again = file.read()

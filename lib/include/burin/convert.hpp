@@ -63,7 +63,8 @@ enum class Unrefined {
 //
 // The map is first drawn with its step paths and the levels between them alone: that explains `steps`. Grooves and
 // ridges are then added: `lines` is what they explain on top, below 0 where they do harm. A groove that runs along a
-// wall and hides a mistake of its step counts with the lines.
+// wall and hides a mistake of its step counts with the lines. What is left is exact; the border between the two others
+// is measured with fewer samples, within 0.0005.
 struct ExplainedShares {
     double steps = 0.0, lines = 0.0;
     double left = 1.0;  // by neither; the fallback maps carry it

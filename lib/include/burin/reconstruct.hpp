@@ -15,6 +15,7 @@ namespace burin {
 struct ReconstructOptions {
     // Only step paths and the levels between them: the surface without its grooves and ridges.
     bool steps_only = false;
+    int samples = 4;  // per texel side, as RasterizeOptions::samples
     int threads = 0;  // 0: as many as the machine has; the result does not depend on it
 };
 
