@@ -20,6 +20,10 @@ std::string of_range(double share) { return percent_text(share, 3) + " of range"
 
 void add_counts(Report& report, const ConvertStats& stats, std::size_t file_bytes) {
     report.add({"paths", "paths", std::int64_t{stats.paths}, ""});
+    report.add_group("paths_by_kind", "  by kind",
+                     {{"steps", "steps", std::int64_t{stats.steps}, ""},
+                      {"grooves", "grooves", std::int64_t{stats.grooves}, ""},
+                      {"ridges", "ridges", std::int64_t{stats.ridges}, ""}});
     report.add_group("elements", "elements",
                      {{"lines", "lines", std::int64_t{stats.lines}, ""},
                       {"quadratics", "quadratics", std::int64_t{stats.quadratics}, ""}});
@@ -39,10 +43,6 @@ void add_certificate(Report& report, const ConvertStats& stats) {
                      {{"steps", "steps", shares.steps, explained_text(shares.steps)},
                       {"lines", "lines on top", shares.lines, explained_text(shares.lines)},
                       {"left", "left", shares.left, number_text(shares.left)}});
-    report.add_group("traced_paths", "traced paths",
-                     {{"steps", "steps", std::int64_t{stats.steps}, ""},
-                      {"grooves", "grooves", std::int64_t{stats.grooves}, ""},
-                      {"ridges", "ridges", std::int64_t{stats.ridges}, ""}});
     report.add({"rms", "RMS error", stats.rms, of_range(stats.rms)});
     report.add({"p999", "99.9th percentile", stats.p999, of_range(stats.p999)});
     report.add({"p999_without_smooth", "  smooth removed", stats.p999_without_smooth, of_range(stats.p999_without_smooth)});

@@ -51,7 +51,8 @@ class StageClock {
 
 Error stopped() { return {ErrorCode::invalid_argument, "stopped on request"}; }
 
-void count_elements(const ResolvedPattern& pattern, double texels_per_metre, ConvertStats& stats) {
+// Counts what is stored, and gives the places of the paths it came from.
+std::vector<std::uint32_t> count_elements(const ResolvedPattern& pattern, double texels_per_metre, ConvertStats& stats) {
     std::vector<std::uint32_t> paths;
     for (const ResolvedElement& element : pattern.elements) {
         const bool line = element.element.kind == ElementKind::line;
@@ -60,8 +61,10 @@ void count_elements(const ResolvedPattern& pattern, double texels_per_metre, Con
         paths.push_back(element.path);
     }
     std::sort(paths.begin(), paths.end());
-    stats.paths = static_cast<int>(std::unique(paths.begin(), paths.end()) - paths.begin());
+    paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+    stats.paths = static_cast<int>(paths.size());
     stats.profiles = static_cast<int>(pattern.profiles.size());
+    return paths;
 }
 
 // Maps of lines and plateaus come above 0.5, rock and terrain stay below 0.2.
@@ -95,6 +98,7 @@ Status measure(const HeightMap& map, const PackedTextures& textures, const PathD
 struct Packed {
     PackedTextures textures;
     PathDetail detail;
+    std::vector<std::uint32_t> paths;  // of the pattern, that are stored
 };
 
 // Resolve, grid, pack.
@@ -105,7 +109,7 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     if (!resolved) return resolved.error();
     stats.paths = stats.lines = stats.quadratics = 0;
     stats.path_length_texels = 0.0;
-    count_elements(*resolved, map.image.width / resolved->size.x, stats);
+    std::vector<std::uint32_t> paths = count_elements(*resolved, map.image.width / resolved->size.x, stats);
     stats.dropped_paths = resolved->stats.dropped_paths;
     stats.repeat = resolved->wrap == Wrap::repeat;
 
@@ -124,7 +128,7 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     stats.data_bytes = textures->data.size() * sizeof(std::uint32_t);
     PathDetail detail = describe_pattern(*resolved, *textures);
     detail.tex_coord = options.attach.tex_coord;
-    return Packed{std::move(*textures), std::move(detail)};
+    return Packed{std::move(*textures), std::move(detail), std::move(paths)};
 }
 
 // A sixteenth of the map's 8-bit size; above 1024 x 1024 it stays at 63 KiB until that is a 128th, since a map
@@ -367,12 +371,17 @@ Result<Candidate> within_bounds(const HeightMap& map, const ConvertOptions& opti
     return closer_within(start->source, options, std::move(start->candidate), progress, clock);
 }
 
+// Without the paths that could not be joined: the pattern of what is stored.
+Pattern stored_pattern(Pattern pattern, const std::vector<std::uint32_t>& paths) {
+    std::vector<Path> kept;
+    for (const std::uint32_t path : paths) kept.push_back(std::move(pattern.paths[path]));
+    pattern.paths = std::move(kept);
+    return pattern;
+}
+
 void count_kinds(const Pattern& pattern, ConvertStats& stats) {
-    for (const Path& path : pattern.paths) switch (path_kind(pattern, path)) {
-        case PathKind::groove: ++stats.grooves; break;
-        case PathKind::ridge: ++stats.ridges; break;
-        case PathKind::step: ++stats.steps; break;
-    }
+    int* const counts[] = {&stats.grooves, &stats.ridges, &stats.steps};  // as PathKind counts them
+    for (const Path& path : pattern.paths) ++*counts[static_cast<std::size_t>(path_kind(pattern, path))];
 }
 
 // The certificate by class. Drawn again only where both classes are there.
@@ -405,12 +414,12 @@ Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& op
     found.stats = candidate->stats;
     found.stats.noise = candidate->traced.noise;
     found.stats.tolerance = candidate->traced.tolerance;
-    count_kinds(candidate->traced.pattern, found.stats);
+    found.pattern = stored_pattern(std::move(candidate->traced.pattern), candidate->packed.paths);
+    count_kinds(found.pattern, found.stats);
     if (!clock.begin("measure")) return stopped();
     if (const Status shared = share_out(map, *candidate, options.threads, found.stats); !shared) return shared.error();
     clock.end();
     found.stats.seconds = std::move(seconds);
-    found.pattern = std::move(candidate->traced.pattern);
     found.textures = std::move(candidate->packed.textures);
     found.detail = std::move(candidate->packed.detail);
     return found;

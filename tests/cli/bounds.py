@@ -56,7 +56,7 @@ def main():
         runs = Runs(arguments, verdicts, folder)
         free = runs.kept([])
         verdicts.expect(free["by_class"]["steps"] > 0.5 and free["by_class"]["lines"] > 0.005, "both classes explain")
-        verdicts.expect(free["traced_paths"] == {"steps": 1, "grooves": 1, "ridges": 0}, f"{free['traced_paths']}")
+        verdicts.expect(free["paths_by_kind"] == {"steps": 1, "grooves": 1, "ridges": 0}, f"{free['paths_by_kind']}")
 
         tight = free["textures"] * 3 // 4
         small = runs.kept(["--max-bytes", str(tight)])

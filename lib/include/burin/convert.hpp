@@ -84,7 +84,7 @@ struct ConvertStats {
     double explained = 0.0;               // DESIGN 7, paths alone
     double traced_explained = 0.0;        // before refining, and before paths that explain next to nothing were given up
     ExplainedShares shares;               // of `explained`, by class
-    int steps = 0, grooves = 0, ridges = 0;  // paths of each class, as traced
+    int steps = 0, grooves = 0, ridges = 0;  // of `paths`
     // Height errors of what is stored, as shares of the range; p999: at most 1 texel in 1000 errs by more.
     double rms = 0.0, p999 = 0.0, max = 0.0;
     double p999_without_smooth = 0.0;     // the same after the smooth part of the error is taken away
@@ -93,7 +93,7 @@ struct ConvertStats {
 
 // The paths of a map, and their textures: all of a conversion that needs no model.
 struct FoundPattern {
-    Pattern pattern;          // as traced and refined, in metres
+    Pattern pattern;          // as traced and refined, in metres; without paths that could not be resolved
     PackedTextures textures;  // as stored
     PathDetail detail;
     ConvertStats stats;
