@@ -29,6 +29,8 @@ struct Instance {
     Vec2 offset;
 };
 
+constexpr float kNearStep = -1e30f;
+
 struct Layout {
     int width = 0, height = 0;  // texels
     Vec2 side;                  // of a texel
@@ -46,8 +48,11 @@ struct Layout {
 
     Vec2 centre(int x, int y) const { return {(x + 0.5) * side.x, (y + 0.5) * side.y}; }
     double half_diagonal() const { return 0.5 * length(side); }
+    // Of a texel that no feature is near.
+    double ground_at(std::size_t texel) const {
+        return ground.empty() || ground[texel] == kNearStep ? outer_level : ground[texel];
+    }
 };
-constexpr float kNearStep = -1e30f;
 
 // A step whose line may be the nearest one somewhere in a square.
 struct StepLine {

@@ -103,7 +103,7 @@ bool TexelModel::gather(int x, int y) {
     for (const std::uint32_t index : tile_list_) consider(index, texel_);
     if (near_step_) {
         steps_[0] = tile_steps_;
-        keep_nearest_steps(layout_, texel_.centre, texel_.half, steps_[0]);
+        if (divisions_ > kWhole) keep_nearest_steps(layout_, texel_.centre, texel_.half, steps_[0]);
     }
     return count_ > 0;
 }
@@ -168,6 +168,7 @@ void TexelModel::consider(std::uint32_t index, const Square& texel) {
     c.feature = &feature;
     c.used = false;
     actor.candidate = static_cast<int>(count_++);
+    if (divisions_ == kWhole) return actors_[0].push_back(actor);
     actor.reach = reach_at(feature.frame, p, actor.foot, feature.left, feature.right, texel.half);
     if (!actor.reach.possible) return;
     bound(actor, texel.half);
@@ -374,6 +375,7 @@ bool TexelModel::ruled_by_one() {
 }
 
 double TexelModel::mean() {
+    if (divisions_ == kWhole) return cell_mean(texel_, 0, derivatives_);
     cull(actors_[0], steps_[0], texel_.half);
     most_divisions_ = divisions_;
     const std::size_t left = actors_[0].size();
