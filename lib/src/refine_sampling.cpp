@@ -45,7 +45,7 @@ class BlockSampler {
     void sample(int x, int y, int side) {
         const int right = std::min(x + side, out_.width), below = std::min(y + side, out_.height);
         if (x >= right || y >= below) return;
-        if (!bends_near(x, y, right, below)) return choose(x, y, right, below, side);
+        if (!bends_near(x, y, right, below)) return choose(x, y, right, below);
         if (side == 2) return sparse_ ? every_second(x, y, right, below) : every_one(x, y, right, below);
         for (int quarter = 0; quarter < 4; ++quarter)
             sample(x + (quarter & 1) * side / 2, y + (quarter >> 1) * side / 2, side / 2);
@@ -62,10 +62,17 @@ class BlockSampler {
 
     std::uint8_t& weight(int x, int y) { return out_.weights[static_cast<std::size_t>(y) * out_.width + x]; }
 
-    // Another texel from block to block: a row of them would meet a path that runs along it never or always.
-    void choose(int left, int top, int right, int below, int side) {
+    // Another texel from block to block, without a rhythm: a row of them would meet a path that runs along it always or
+    // never.
+    static unsigned scattered(int x, int y) {
+        unsigned bits = static_cast<unsigned>(x) * 0x9e3779b1u ^ static_cast<unsigned>(y) * 0x85ebca77u;
+        bits = (bits ^ (bits >> 15)) * 0x2c1b3c6du;
+        return bits >> 16;
+    }
+
+    void choose(int left, int top, int right, int below) {
         const int count = (right - left) * (below - top);
-        const int place = (left / side * 7 + top / side * 5) % count;
+        const int place = static_cast<int>(scattered(left, top) % static_cast<unsigned>(count));
         weight(left + place % (right - left), top + place / (right - left)) = static_cast<std::uint8_t>(count);
     }
 
@@ -76,7 +83,8 @@ class BlockSampler {
 
     void every_second(int left, int top, int right, int below) {
         if ((right - left) * (below - top) < 4) return every_one(left, top, right, below);
-        weight(left, top) = weight(left + 1, top + 1) = 2;
+        const int slant = static_cast<int>(scattered(left, top) % 2);
+        weight(left + slant, top) = weight(left + 1 - slant, top + 1) = 2;
     }
 
     Sampling& out_;
