@@ -103,13 +103,12 @@ double misfit(const Prediction& prediction, double threshold) {
     return robust_cost(prediction.residuals, threshold) + robust_cost(prediction.far, threshold);
 }
 
-// What a step has to lower: the misfit near features, which is what the equations know, and the springs at the strength
-// that the misfit leaves them.
+// What a step has to lower: the misfit, and the springs at the strength the misfit leaves them.
 double cost_of(const State& state, double deviation) {
     double springs = 0.0;
     for (std::size_t i = 0; i < state.parameters.moved().size(); ++i)
         springs += state.parameters.stiffness()[i] * state.parameters.moved()[i] * state.parameters.moved()[i];
-    return robust_cost(state.prediction.residuals, threshold_of(deviation)) + 0.5 * deviation * deviation * springs;
+    return misfit(state.prediction, threshold_of(deviation)) + 0.5 * deviation * deviation * springs;
 }
 
 class Refinement {

@@ -1,6 +1,7 @@
 #include "refine_forward.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <thread>
@@ -41,19 +42,55 @@ class Summation {
             entry.slope = static_cast<float>(slope);
             entry.element = static_cast<std::int32_t>(element);
         }
-        for (std::size_t i = 0; i < used_.size(); ++i) {
-            const Row& row = rows_[i];
-            std::vector<double>& gradient = sum_.gradients[used_[i]];
-            if (gradient.empty()) gradient.assign(row.size(), 0.0);
-            for (std::size_t k = 0; k < row.size(); ++k) gradient[k] += weight * residual * row[k];
-            for (std::size_t j = i; j < used_.size(); ++j) add_pair(i, j, weight);
-        }
+        for (std::size_t i = 0; i < used_.size(); ++i) add_row(i, weight, weight * residual);
     }
 
-    Equations take() { return std::move(sum_); }
+    // Of a texel that no feature is near: all it shows is the level of its region.
+    void add_ground(double level, double residual, double robust, double texels) {
+        const double magnitude = std::abs(residual);
+        const double weight = texels * (magnitude <= robust ? 1.0 : robust / magnitude);
+        auto sum = std::find_if(grounds_.begin(), grounds_.end(), [&](const Ground& g) { return g.level == level; });
+        if (sum == grounds_.end()) sum = grounds_.insert(sum, {level, 0.0, 0.0});
+        sum->weight += weight;
+        sum->residual += weight * residual;
+    }
+
+    Equations take() {
+        for (const Ground& ground : grounds_) add_level(ground);
+        return std::move(sum_);
+    }
 
   private:
     using Row = std::vector<double>;
+
+    struct Ground {
+        double level = 0.0, weight = 0.0, residual = 0.0;  // sums over texels
+    };
+
+    // The level moves with any feature that stands on it.
+    void add_level(const Ground& ground) {
+        for (std::uint32_t element = 0; element < layout_.features.size(); ++element) {
+            const Feature& feature = layout_.features[element];
+            const bool left = std::abs(feature.level_left - ground.level) <= kLevelTolerance;
+            if (!left && std::abs(feature.level_right - ground.level) > kLevelTolerance) continue;
+            std::array<double, kMaxLocal> local{};
+            local[kLevel] = 1.0;
+            if (!left) local[local_count(feature) - 1] = feature.frame.height0;
+            used_.clear();
+            reduce(element, local.data());
+            add_row(0, ground.weight, ground.residual);
+            return;
+        }
+    }
+
+    // Of the used element at `place`; with its pairs to those after it.
+    void add_row(std::size_t place, double weight, double weighted_residual) {
+        const Row& row = rows_[place];
+        std::vector<double>& gradient = sum_.gradients[used_[place]];
+        if (gradient.empty()) gradient.assign(row.size(), 0.0);
+        for (std::size_t k = 0; k < row.size(); ++k) gradient[k] += weighted_residual * row[k];
+        for (std::size_t other = place; other < used_.size(); ++other) add_pair(place, other, weight);
+    }
 
     void reduce(std::uint32_t element, const double* local) {
         const ElementUnknowns& u = unknowns_[element];
@@ -104,6 +141,7 @@ class Summation {
     std::size_t last_offset_ = 0;
     std::vector<std::uint32_t> used_;
     std::vector<Row> rows_;
+    std::vector<Ground> grounds_;
 };
 
 // Runs work(part) for every part; which thread takes which does not matter.
@@ -153,6 +191,7 @@ struct Forward::Scene {
             const double residual = (near ? texel.mean() : layout.ground_at(index)) - map.texels[index];
             Residual entry{static_cast<float>(residual), static_cast<float>(weight), index};
             if (near && options.equations) summation.add(texel, residual, options.robust, entry);
+            if (!near && options.equations) summation.add_ground(layout.ground_at(index), residual, options.robust, weight);
             (near ? out.residuals : out.far).push_back(entry);
         });
         out.parts.push_back(summation.take());

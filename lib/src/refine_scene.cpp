@@ -95,7 +95,9 @@ void note_side(Layout& layout, const std::vector<StepLine>& steps, int x, int y,
     const NearestStep nearest = nearest_step(layout, steps, layout.centre(x, y));
     if (nearest.instance < 0) return;
     const Feature& feature = layout.features[layout.instances[nearest.instance].element];
-    if (nearest.distance > std::max(-feature.left, feature.right) + 1.25) return;
+    // A step may be soft on one side and hard on the other.
+    const double reach = nearest.offset < 0.0 ? -feature.left : feature.right;
+    if (nearest.distance > reach + 1.25) return;
     const std::size_t k = static_cast<std::size_t>(y) * layout.width + x;
     layout.ground[k] = kNearStep;
     side[k] = static_cast<float>(nearest.level);
@@ -183,7 +185,7 @@ NearestStep nearest_step(const Layout& layout, const std::vector<StepLine>& step
         if (tie ? std::abs(foot.offset) <= farthest : difference > 0.0) continue;
         farthest = std::abs(foot.offset);
         best = {static_cast<int>(step.instance), foot.offset < 0.0 ? feature.level_left : feature.level_right,
-                foot.distance};
+                foot.distance, foot.offset};
     }
     return best;
 }

@@ -69,6 +69,7 @@ struct NearestStep {
     int instance = -1;
     double level = 0.0;  // ground at p
     double distance = 1e300;
+    double offset = 0.0;
 };
 NearestStep nearest_step(const Layout& layout, const std::vector<StepLine>& steps, Vec2 p);
 

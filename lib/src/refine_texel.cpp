@@ -17,8 +17,6 @@ Spread spread_of(const Placement& placement, Vec2 cell, double width) {
             std::max(1e-9, std::abs(placement.gradient.y) * cell.y / width)};
 }
 
-int local_count(const Feature& feature) { return kProfile + 2 * static_cast<int>(feature.profile->b.size()); }
-
 void start_using(Candidate& candidate) {
     if (candidate.used) return;
     candidate.used = true;

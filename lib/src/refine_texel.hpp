@@ -15,6 +15,9 @@
 
 namespace burin::refinement {
 
+// How many local quantities a feature has: see kPoints.
+inline int local_count(const Feature& feature) { return kProfile + 2 * static_cast<int>(feature.profile->b.size()); }
+
 // A feature near the texel.
 struct Candidate {
     std::uint32_t instance = 0;
