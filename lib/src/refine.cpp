@@ -38,6 +38,7 @@ constexpr double kTorn = 0.1;                // map scale
 // A texel's model is as exact as this share of what it is off by, not more: doubt about a part of it is then cheap.
 constexpr double kPrecision = 0.2;
 constexpr double kSettled = 1e-3;  // relative gain of a step below which the iteration ends
+constexpr int kHoldRounds = 3;
 constexpr int kExactSteps = 3;     // most of them: they start where the rough model has led
 
 // The pattern in texels of the map's width, heights in map scale: white 1, black 0.
@@ -96,6 +97,7 @@ struct State {
     Parameters parameters;
     std::vector<ElementUnknowns> elements;
     Prediction prediction;
+    std::vector<std::uint8_t> resolves;  // by path: whether anything is left of it once it is resolved
 };
 
 // Over the whole map: patterns whose features cover different texels compare fairly.
@@ -117,14 +119,12 @@ class Refinement {
         : map_(map), side_(side), options_(options), rough_(sample_map(map, true)), exact_(sample_map(map, false)) {}
 
     // The model's map and its equations, at a state's pattern.
-    Status predict(State& state, Model model, double threshold, double precision) const {
-        const Result<ResolvedPattern> resolved = resolve_pattern(state.pattern, resolve_options());
-        if (!resolved) return resolved.error();
-        state.elements = state.parameters.of_elements(state.pattern, *resolved);
+    void predict(State& state, const ResolvedPattern& resolved, Model model, double threshold, double precision) const {
+        state.elements = state.parameters.of_elements(state.pattern, resolved);
         ForwardOptions forward = forward_options(model, precision);
         forward.robust = threshold;
-        state.prediction = Forward(*resolved, map_, side_, sampling(model)).predict(state.elements, forward);
-        return Done{};
+        state.prediction = Forward(resolved, map_, side_, sampling(model)).predict(state.elements, forward);
+        state.resolves = resolving_paths(state.pattern, resolved);
     }
 
     // The model's map alone.
@@ -140,8 +140,10 @@ class Refinement {
     Result<State> run(const Pattern& start, Model model, double precision, RefineReport& report) const {
         Pattern tied = start;
         Parameters parameters(tied, options_);
-        State best{std::move(tied), std::move(parameters), {}, {}};
-        if (Status status = predict(best, model, 1e30, precision); !status) return status.error();
+        State best{std::move(tied), std::move(parameters), {}, {}, {}};
+        const Result<ResolvedPattern> begun = resolve_pattern(best.pattern, resolve_options());
+        if (!begun) return begun.error();
+        predict(best, *begun, model, 1e30, precision);
         report.unknowns = best.parameters.count();
         const int most = model == Model::exact ? std::min(kExactSteps, options_.iterations) : options_.iterations;
         double damping = kFirstDamping;
@@ -150,12 +152,12 @@ class Refinement {
             const double deviation = deviation_of(best.prediction.residuals);
             NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
             equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
-            State next{best.pattern, best.parameters, {}, {}};
-            next.parameters.apply(equations.step(damping), options_.max_shift_texels, next.pattern);
             ++report.iterations;
-            const bool resolves = predict(next, model, threshold_of(deviation), precision).ok();
+            State next{best.pattern, best.parameters, {}, {}, {}};
+            const Result<ResolvedPattern> resolved = take_step(best, equations, damping, next);
+            if (resolved) predict(next, *resolved, model, threshold_of(deviation), precision);
             const double before = cost_of(best, deviation);
-            const double after = resolves ? cost_of(next, deviation) : 1e300;
+            const double after = resolved ? cost_of(next, deviation) : 1e300;
             if (after >= before) {
                 damping = std::max(10.0 * damping, 1e-2);
                 refused = true;
@@ -208,6 +210,32 @@ class Refinement {
     }
 
   private:
+    static std::vector<std::uint8_t> resolving_paths(const Pattern& pattern, const ResolvedPattern& resolved) {
+        std::vector<std::uint8_t> resolves(pattern.paths.size(), 0);
+        for (const ResolvedElement& element : resolved.elements) resolves[element.path] = 1;
+        return resolves;
+    }
+
+    // Moves `next` on from `from`. Paths that would then resolve no more, since a step path of theirs crosses another, stay
+    // where they are from now on: shorter steps of everything else would not help them.
+    Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, double damping, State& next) const {
+        for (int round = 0;; ++round) {
+            next.pattern = from.pattern;
+            next.parameters = from.parameters;
+            next.parameters.apply(equations.step(damping, from.parameters.held()), options_.max_shift_texels, next.pattern);
+            Result<ResolvedPattern> resolved = resolve_pattern(next.pattern, resolve_options());
+            if (!resolved || round == kHoldRounds) return resolved;
+            const std::vector<std::uint8_t> resolves = resolving_paths(next.pattern, *resolved);
+            bool any_lost = false;
+            for (std::size_t path = 0; path < resolves.size(); ++path) {
+                if (resolves[path] || !from.resolves[path]) continue;
+                from.parameters.hold(static_cast<int>(path), from.pattern.paths[path].elements.size());
+                any_lost = true;
+            }
+            if (!any_lost) return resolved;
+        }
+    }
+
     // Whether a pattern's misfit is below a share of another's.
     bool fits(const Pattern& pattern, double share, const Pattern& other) const {
         const Result<Prediction> before = look(other, Model::rough), after = look(pattern, Model::rough);
