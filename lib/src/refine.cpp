@@ -123,7 +123,7 @@ class Refinement {
         state.elements = state.parameters.of_elements(state.pattern, resolved);
         ForwardOptions forward = forward_options(model, precision);
         forward.robust = threshold;
-        state.prediction = Forward(resolved, map_, side_, sampling(model)).predict(state.elements, forward);
+        state.prediction = Forward(resolved, map_, side_, sampling(model), options_.threads).predict(state.elements, forward);
         state.resolves = resolving_paths(state.pattern, resolved);
     }
 
@@ -133,7 +133,7 @@ class Refinement {
         if (!resolved) return resolved.error();
         ForwardOptions forward = forward_options(model, precision);
         forward.equations = false;
-        return Forward(*resolved, map_, side_, sampling(model)).predict({}, forward);
+        return Forward(*resolved, map_, side_, sampling(model), options_.threads).predict({}, forward);
     }
 
     // Damped Gauss-Newton steps from `start` until nothing is gained.

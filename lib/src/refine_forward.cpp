@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <thread>
 #include <unordered_map>
 
+#include "refine_parallel.hpp"
 #include "refine_scene.hpp"
 #include "refine_texel.hpp"
 
@@ -144,21 +143,6 @@ class Summation {
     std::vector<Ground> grounds_;
 };
 
-// Runs work(part) for every part; which thread takes which does not matter.
-template <typename Work>
-void in_parallel(int parts, int threads, Work work) {
-    if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    threads = std::min(threads, parts);
-    std::atomic<int> next{0};
-    const auto run = [&] {
-        for (int part = next++; part < parts; part = next++) work(part);
-    };
-    std::vector<std::thread> others;
-    for (int i = 1; i < threads; ++i) others.emplace_back(run);
-    run();
-    for (std::thread& thread : others) thread.join();
-}
-
 }  // namespace
 
 struct Forward::Scene {
@@ -198,8 +182,9 @@ struct Forward::Scene {
     }
 };
 
-Forward::Forward(const ResolvedPattern& pattern, const Image& map, Vec2 side, const Sampling& sampling)
-    : scene_(new Scene{lay_out(pattern, map.width, map.height, side), map, sampling}) {}
+Forward::Forward(const ResolvedPattern& pattern, const Image& map, Vec2 side, const Sampling& sampling,
+                 int threads)
+    : scene_(new Scene{lay_out(pattern, map.width, map.height, side, threads), map, sampling}) {}
 
 Forward::~Forward() = default;
 

@@ -81,7 +81,7 @@ struct ForwardOptions {
 class Forward {
   public:
     // map and pattern outlive it. `side`: a texel's sides, side.x is 1. `sampling` outlives it, too.
-    Forward(const ResolvedPattern& pattern, const Image& map, Vec2 side, const Sampling& sampling);
+    Forward(const ResolvedPattern& pattern, const Image& map, Vec2 side, const Sampling& sampling, int threads = 0);
     ~Forward();
     Forward(const Forward&) = delete;
     Forward& operator=(const Forward&) = delete;

@@ -115,7 +115,7 @@ void TexelModel::enter_tile(std::size_t tile, int column, int row) {
     const Vec2 side = layout_.side * double(kTile);
     const Square square{{(column + 0.5) * side.x, (row + 0.5) * side.y}, side, 0.5 * length(side), 1.0};
     if (!layout_.tile_has_step[tile]) return thin_out_tile(square, column, row);
-    nearest_steps_of_tile(layout_, column, row, tile_steps_);
+    tile_steps_ = layout_.tile_steps[tile];
 }
 
 void TexelModel::thin_out_tile(const Square& square, int column, int row) {
