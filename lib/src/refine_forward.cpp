@@ -35,7 +35,7 @@ class Summation {
             const std::uint32_t element = layout_.instances[c.instance].element;
             reduce(element, c.local.data());
             const double* p = c.local.data() + kPoints;
-            const double slope = std::hypot(p[0] + p[2] + p[4], p[1] + p[3] + p[5]);
+            const double x = p[0] + p[2] + p[4], y = p[1] + p[3] + p[5], slope = std::sqrt(x * x + y * y);
             if (slope <= steepest) continue;
             steepest = slope;
             entry.slope = static_cast<float>(slope);

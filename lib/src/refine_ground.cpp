@@ -12,7 +12,7 @@ NearestStep nearest_step(const Layout& layout, const std::vector<StepLine>& step
     for (const StepLine& step : steps) {
         const Instance& instance = layout.instances[step.instance];
         const Feature& feature = layout.features[instance.element];
-        const Foot foot = foot_of(feature.frame, p - instance.offset);
+        const Foot foot = foot_of(feature.frame, p - instance.offset, step.guess);
         // Two neighbours share the nearest point at their corner: the one whose line is farther away decides.
         const double difference = foot.distance - best.distance;
         const bool tie = std::abs(difference) <= 1e-9 * (1.0 + foot.distance);
@@ -49,7 +49,8 @@ void keep_nearest_steps(const Layout& layout, Vec2 p, double radius, std::vector
         const Instance& instance = layout.instances[step.instance];
         const Feature& feature = layout.features[instance.element];
         const ElementFrame& frame = feature.frame;
-        const Foot foot = foot_of(frame, p - instance.offset);
+        const Foot foot = foot_of(frame, p - instance.offset, step.guess);
+        step.guess = guess_near(frame, foot, radius);
         step.distance = foot.distance;
         step.offset = foot.offset;
         step.one_sided = std::abs(foot.offset) > radius && is_tame(frame, foot, radius);

@@ -42,6 +42,7 @@ struct StepLine {
     std::uint32_t instance = 0;
     double distance = 0.0;  // from the square's centre
     double offset = 0.0;    // of the centre
+    double guess = -1.0;    // curve parameter near the feet of the square's points, or -1: see foot_of
     const Vec2* vertex = nullptr;  // the line's end when that is its nearest point to all of the square
     bool one_sided = false;        // the square lies on one side of the line
     double level = 0.0;            // of the ground on the centre's side
