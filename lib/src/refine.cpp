@@ -25,7 +25,6 @@ constexpr double kLeastThreshold = 0.004;  // map scale: one step of an 8-bit ma
 constexpr double kLeastDeviation = 1e-5;    // map scale: rounding of a 16-bit map
 constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
-constexpr double kMostDamping = 1e4;
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
 constexpr double kRoughThreshold = 0.05;    // Huber's, before anything is fitted
 constexpr double kTidyMayCost = 1.05;        // of the misfit, before ends are settled
@@ -37,7 +36,11 @@ constexpr double kShortestSplit = 6.0;       // texels
 constexpr double kTorn = 0.1;                // map scale
 // A texel's model is as exact as this share of what it is off by, not more: doubt about a part of it is then cheap.
 constexpr double kPrecision = 0.2;
-constexpr double kSettled = 1e-3;  // relative gain of a step below which the iteration ends
+// The iteration ends when a step gains less than this share of the cost, or when so many in a row were refused: the rough
+// model is not worth more.
+constexpr double kRoughlySettled = 3e-3;
+constexpr double kSettled = 1e-3;
+constexpr int kMostRefused = 6;
 constexpr int kHoldRounds = 3;
 constexpr int kExactSteps = 3;     // most of them: they start where the rough model has led
 
@@ -147,8 +150,9 @@ class Refinement {
         report.unknowns = best.parameters.count();
         const int most = model == Model::exact ? std::min(kExactSteps, options_.iterations) : options_.iterations;
         double damping = kFirstDamping;
-        bool refused = false;  // the last step
-        for (int i = 0; i < most && damping < kMostDamping && report.unknowns > 0; ++i) {
+        const double settled = model == Model::exact ? kSettled : kRoughlySettled;
+        int refused = 0;  // steps in a row
+        for (int i = 0; i < most && refused < kMostRefused && report.unknowns > 0; ++i) {
             const double deviation = deviation_of(best.prediction.residuals);
             NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
             equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
@@ -160,14 +164,14 @@ class Refinement {
             const double after = resolved ? cost_of(next, deviation) : 1e300;
             if (after >= before) {
                 damping = std::max(10.0 * damping, 1e-2);
-                refused = true;
+                ++refused;
                 continue;
             }
             best = std::move(next);
             // What was too little damping a step ago is so still: a refused step costs as much as one that is taken.
-            if (!refused) damping = std::max(0.1 * damping, 1e-6);
-            refused = false;
-            if (before - after < kSettled * before) break;
+            if (refused == 0) damping = std::max(0.1 * damping, 1e-6);
+            refused = 0;
+            if (before - after < settled * before) break;
         }
         return best;
     }
