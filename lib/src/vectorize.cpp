@@ -65,24 +65,28 @@ void find_features(const Image& source, Traced& traced) {
                        lattice.threads};
     Image map = mirror_margin(source, margin);
     std::vector<Chain> grooves, ridges;
-    Image with_grooves = map, with_ridges = map;  // without the lines of the other kind
+    Erased erased_grooves, erased_ridges;
     // Thin lines first: between them, to a wide look, the ground is a ridge.
     for (const double r : {std::clamp(0.4 * radius, 4.0, 8.0), radius}) {
-        const bool grooves_first = line_energy(map, wide, ChainKind::groove, r, noise) >=
-                                   line_energy(map, wide, ChainKind::ridge, r, noise);
+        Image response = line_response(map, wide, ChainKind::groove, r, noise);
+        const double groove_energy = line_energy(response, noise);
+        Image other = line_response(map, wide, ChainKind::ridge, r, noise);
+        const bool grooves_first = groove_energy >= line_energy(other, noise);
+        if (!grooves_first) response = std::move(other);
+        other = {};
         for (const bool first : {true, false}) {
             const ChainKind kind = first == grooves_first ? ChainKind::groove : ChainKind::ridge;
             std::vector<Chain>& lines = kind == ChainKind::groove ? grooves : ridges;
-            Image& with_same = kind == ChainKind::groove ? with_grooves : with_ridges;
-            Image& with_other = kind == ChainKind::groove ? with_ridges : with_grooves;
-            const Image before = map;
-            for (Chain& chain : trace_lines(map, with_same, wide, kind, {r, radius}, noise, energy))
+            Erased& erased = kind == ChainKind::groove ? erased_grooves : erased_ridges;
+            if (!first) response = line_response(map, wide, kind, r, noise);
+            for (Chain& chain : trace_lines(map, std::move(response), erased, wide, kind, {r, radius}, noise, energy))
                 lines.push_back(std::move(chain));
-            for (std::size_t i = 0; i < map.texels.size(); ++i) with_other.texels[i] += map.texels[i] - before.texels[i];
         }
     }
-    tie_lines(grooves, with_grooves, wide, ChainKind::groove, radius);
-    tie_lines(ridges, with_ridges, wide, ChainKind::ridge, radius);
+    if (!grooves.empty())
+        tie_lines(grooves, restored_response(map, erased_grooves, wide, ChainKind::groove, radius, noise), wide);
+    if (!ridges.empty())
+        tie_lines(ridges, restored_response(map, erased_ridges, wide, ChainKind::ridge, radius, noise), wide);
     traced.lines = std::move(grooves);
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);

@@ -1,6 +1,6 @@
 // Grooves and ridges: what a closing (or opening) fills is narrower than its square; the mask of what was filled is
 // thinned to centre lines, which are then measured and joined.
-#include "vectorize_internal.hpp"
+#include "vectorize_hat.hpp"
 #include "vectorize_skeleton.hpp"
 
 #include <algorithm>
@@ -8,53 +8,10 @@
 #include <map>
 #include <numeric>
 
-#include <opencv2/imgproc.hpp>
+#include "parallel.hpp"
 
 namespace burin::vectorizing {
 namespace {
-
-cv::Mat padded(const Image& image, const Lattice& lattice, int margin) {
-    cv::Mat out(lattice.height + 2 * margin, lattice.width + 2 * margin, CV_32F);
-    for (int y = 0; y < out.rows; ++y) {
-        float* row = out.ptr<float>(y);
-        for (int x = 0; x < out.cols; ++x) row[x] = image.texels[lattice.nearest(x - margin, y - margin)];
-    }
-    return out;
-}
-
-Image cropped(const cv::Mat& mat, const Lattice& lattice, int margin) {
-    Image out(lattice.width, lattice.height);
-    for (int y = 0; y < lattice.height; ++y) {
-        const float* row = mat.ptr<float>(y + margin) + margin;
-        std::copy(row, row + lattice.width, &out.texels[static_cast<std::size_t>(y) * lattice.width]);
-    }
-    return out;
-}
-
-// Depth of each texel below the closing of the map (grooves), or height above its opening (ridges).
-Image hat_response(const Image& map, const Lattice& lattice, ChainKind kind, int radius) {
-    const int margin = 2 * radius + 1;
-    const cv::Mat source = padded(map, lattice, margin);
-    const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1});
-    cv::Mat hat;
-    cv::morphologyEx(source, hat, kind == ChainKind::groove ? cv::MORPH_BLACKHAT : cv::MORPH_TOPHAT, square);
-    return cropped(hat, lattice, margin);
-}
-
-// Texels above a good part of the strongest response around them, and above the grain. Where two lines cross, the map is
-// often twice as deep: with a half instead of 0.4 the lines would lose touch with their crossing.
-std::vector<std::uint8_t> strong_mask(const Image& response, const Lattice& lattice, int radius, double least) {
-    const int margin = radius + 1;
-    const cv::Mat source = padded(response, lattice, margin);
-    const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1});
-    cv::Mat peak;
-    cv::dilate(source, peak, square);
-    const Image local = cropped(peak, lattice, margin);
-    std::vector<std::uint8_t> mask(response.texels.size());
-    for (std::size_t i = 0; i < mask.size(); ++i)
-        mask[i] = response.texels[i] > std::max(0.4f * local.texels[i], static_cast<float>(least));
-    return mask;
-}
 
 // The connected parts of a mask, without those whose area or summed response is that of a speck.
 Parts find_shapes(std::vector<std::uint8_t>& mask, const Image& response, const Lattice& lattice, double least_energy) {
@@ -238,6 +195,8 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
     return false;
 }
 
+float sign_of(ChainKind kind) { return kind == ChainKind::groove ? 1.0f : -1.0f; }
+
 double least_response(double noise) { return std::max(4.0 * noise, 0.012); }
 
 int square_radius(double radius) { return std::max(2, static_cast<int>(std::lround(radius))); }
@@ -390,53 +349,90 @@ bool crosses_unknown(const Chain& chain, Vec2 p, Vec2 normal, const Image& respo
     return false;
 }
 
-// Fills the lines' texels to the height of the ground beside them, which is what the closing (opening) holds.
-// Returns 1 for the texels that were filled.
-std::vector<std::uint8_t> erase_lines(Image& map, const Image& response, const Lattice& lattice,
-                                      const std::vector<Chain>& chains, const std::vector<std::int32_t>& owner,
-                                      ChainKind kind) {
-    std::vector<std::uint8_t> erased(map.texels.size(), 0);
-    const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
+// Calls visit(index, centre) as for_each_texel_near, for the texels no farther than one from the normal at p.
+template <typename Visit>
+void for_each_texel_across(Vec2 p, Vec2 normal, const Lattice& lattice, int reach, const Visit& visit) {
+    const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
+    for (int dy = -reach; dy <= reach; ++dy) {
+        int first = -reach, last = reach;
+        if (std::fabs(normal.y) > 0.01) {
+            const double middle = (y + dy + 0.5 - p.y) * normal.x / normal.y + p.x - 0.5 - x, half = 1.0 / std::fabs(normal.y);
+            first = std::max(first, static_cast<int>(std::floor(middle - half)));
+            last = std::min(last, static_cast<int>(std::ceil(middle + half)));
+        }
+        for (int dx = first; dx <= last; ++dx) {
+            const Vec2 centre{x + dx + 0.5, y + dy + 0.5};
+            if (dx * dx + dy * dy > reach * reach || std::fabs(cross(centre - p, normal)) > 1.0) continue;
+            const int j = lattice.index(x + dx, y + dy);
+            if (j >= 0) visit(j, centre);
+        }
+    }
+}
+
+// The texels of the lines, each once.
+std::vector<int> covered_texels(const Image& response, const Lattice& lattice, const std::vector<Chain>& chains,
+                                const std::vector<std::int32_t>& owner) {
+    std::vector<std::uint8_t> covered(response.texels.size(), 0);
+    std::vector<int> texels;
+    const auto cover = [&](int texel, Vec2) {
+        if (!covered[texel]) texels.push_back(texel);
+        covered[texel] = 1;
+    };
     for (const Chain& chain : chains) {
         const int reach = static_cast<int>(std::ceil(1.5 * chain.half_width + 2.0));
         for_each_place(chain, [&](Vec2 p, Vec2 normal) {
             if (crosses_unknown(chain, p, normal, response, lattice, owner)) return;
             const bool at_end = !chain.closed && (p == chain.points.front() || p == chain.points.back());
-            for_each_texel_near(p, lattice, reach, [&](int texel, Vec2 centre) {
-                // Beyond the place itself only at the ends: the next one may cross something.
-                if (erased[texel] || (!at_end && std::fabs(cross(centre - p, normal)) > 1.0)) return;
-                erased[texel] = 1;
-                map.texels[texel] += sign * response.texels[texel];
-            });
+            // Beyond the place itself only at the ends: the next one may cross something.
+            if (at_end)
+                for_each_texel_near(p, lattice, reach, cover);
+            else
+                for_each_texel_across(p, normal, lattice, reach, cover);
         });
     }
-    return erased;
+    return texels;
+}
+
+void change_texel(Image& map, int texel, float change, Erased& erased) {
+    map.texels[texel] += change;
+    erased.push_back({texel, change});
 }
 
 // Where two thin lines cross, a small square may find no level ground: what is left there of the filled texels is filled by
 // a large one.
 void erase_crossings(Image& map, const Lattice& lattice, const std::vector<std::int32_t>& owner,
-                     const std::vector<std::uint8_t>& erased, ChainKind kind, const LineScale& scale) {
-    Image crossing(map.width, map.height);
-    bool any = false;
-    for (std::size_t i = 0; i < owner.size(); ++i)
-        if (owner[i] == kSeveral) crossing.texels[i] = 1.0f, any = true;
-    if (!any) return;
+                     const std::vector<int>& covered, ChainKind kind, const LineScale& scale, double least, Erased& erased) {
     const int near = 2 * square_radius(scale.radius);
-    const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {2 * near + 1, 2 * near + 1});
-    cv::Mat around;
-    cv::dilate(padded(crossing, lattice, near), around, square);
-    crossing = cropped(around, lattice, near);
-    const Image response = hat_response(map, lattice, kind, square_radius(scale.widest));
-    const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
-    for (std::size_t i = 0; i < owner.size(); ++i)
-        if (erased[i] && crossing.texels[i] > 0.0f) map.texels[i] += sign * response.texels[i];
+    const auto is_near_crossing = [&](int texel) {
+        const int x = texel % lattice.width, y = texel / lattice.width;
+        for (int dy = -near; dy <= near; ++dy)
+            for (int dx = -near; dx <= near; ++dx)
+                if (owner[lattice.nearest(x + dx, y + dy)] == kSeveral) return true;
+        return false;
+    };
+    std::vector<int> texels;
+    if (std::find(owner.begin(), owner.end(), kSeveral) != owner.end())
+        std::copy_if(covered.begin(), covered.end(), std::back_inserter(texels), is_near_crossing);
+    const std::vector<float> left = hat_at(map, lattice, kind, square_radius(scale.widest), least, texels);
+    for (std::size_t k = 0; k < texels.size(); ++k) change_texel(map, texels[k], sign_of(kind) * left[k], erased);
+}
+
+// Fills the lines' texels to the height of the ground beside them, which is what the closing (opening) holds.
+void erase_lines(Image& map, const Image& response, const Lattice& lattice, const std::vector<Chain>& chains, ChainKind kind,
+                 const LineScale& scale, double least, Erased& erased) {
+    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
+    const std::vector<int> covered = covered_texels(response, lattice, chains, owner);
+    for (const int texel : covered) change_texel(map, texel, sign_of(kind) * response.texels[texel], erased);
+    if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, covered, kind, scale, least, erased);
 }
 
 }  // namespace
 
-double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise) {
-    const Image response = hat_response(map, lattice, kind, square_radius(radius));
+Image line_response(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise) {
+    return hat_response(map, lattice, kind, square_radius(radius), least_response(noise));
+}
+
+double line_energy(const Image& response, double noise) {
     const float least = static_cast<float>(least_response(noise));
     double sum = 0.0;
     for (const float v : response.texels)
@@ -444,30 +440,40 @@ double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, dou
     return sum;
 }
 
-std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& lattice, ChainKind kind,
+Image restored_response(Image& map, const Erased& erased, const Lattice& lattice, ChainKind kind, double radius, double noise) {
+    std::vector<float> values;  // as they are now, to be put back exactly
+    for (const auto& [texel, change] : erased) {
+        values.push_back(map.texels[texel]);
+        map.texels[texel] -= change;
+    }
+    Image response = line_response(map, lattice, kind, radius, noise);
+    for (std::size_t k = erased.size(); k-- > 0;) map.texels[erased[k].texel] = values[k];
+    return response;
+}
+
+std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const Lattice& lattice, ChainKind kind,
                                const LineScale& scale, double noise, double energy) {
-    const int r = square_radius(scale.radius);
-    const Image response = hat_response(map, lattice, kind, r);
     const double least = least_response(noise);
     // A wide window would hide a shallow line where it comes near a deep one.
-    std::vector<std::uint8_t> mask = strong_mask(response, lattice, std::max(4, r / 3), least);
+    const int window = std::max(4, square_radius(scale.radius) / 3);
+    std::vector<std::uint8_t> mask = strong_mask(response, lattice, window, least);
     const Parts parts = find_shapes(mask, response, lattice, 24.0 * least * least);
     if (parts.runs.empty()) return {};
     thin_mask(mask, parts, lattice);
     Skeleton skeleton = trace_skeleton(mask, parts, lattice);
-    const Image whole = hat_response(intact, lattice, kind, r);
+    Image restored;
+    if (!erased.empty()) restored = restored_response(map, erased, lattice, kind, scale.radius, noise);
+    const Image& whole = erased.empty() ? response : restored;
     measure_strands(skeleton, whole, lattice);
     const std::vector<Chain> all = join_strands(skeleton, whole, lattice, kind);
+    restored = {};
     std::vector<Chain> chains = keep_lines(all, map, lattice, noise, 2e-5 * energy, scale);
     if (scale.radius == scale.widest) drop_partial_shapes(chains, mask, parts, lattice);
-    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
-    const std::vector<std::uint8_t> erased = erase_lines(map, response, lattice, chains, owner, kind);
-    if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, erased, kind, scale);
+    if (!chains.empty()) erase_lines(map, response, lattice, chains, kind, scale, least, erased);
     return chains;
 }
 
-void tie_lines(std::vector<Chain>& chains, const Image& map, const Lattice& lattice, ChainKind kind, double radius) {
-    const Image response = hat_response(map, lattice, kind, square_radius(radius));
+void tie_lines(std::vector<Chain>& chains, const Image& response, const Lattice& lattice) {
     join_facing_ends(chains, response, lattice);
     extend_to_lines(chains, response, lattice);
 }

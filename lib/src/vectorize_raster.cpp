@@ -6,17 +6,6 @@
 
 namespace burin::vectorizing {
 
-float sample(const Image& image, const Lattice& lattice, Vec2 p) {
-    const double x = p.x - 0.5, y = p.y - 0.5;
-    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-    const float fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
-    const float* t = image.texels.data();
-    const float a = t[lattice.nearest(x0, y0)], b = t[lattice.nearest(x0 + 1, y0)];
-    const float c = t[lattice.nearest(x0, y0 + 1)], d = t[lattice.nearest(x0 + 1, y0 + 1)];
-    const float top = a + (b - a) * fx, bottom = c + (d - c) * fx;
-    return top + (bottom - top) * fy;
-}
-
 namespace {
 
 int mirrored(int a, int n) {
