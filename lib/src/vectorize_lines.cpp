@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -69,13 +70,51 @@ double chain_length(const Chain& chain) {
 
 constexpr std::int32_t kNobody = -1, kSeveral = -2;
 
+// Visits the discs of texels around a place that moves, each but for what the disc before it held too.
+class MovingDisc {
+  public:
+    explicit MovingDisc(int reach) : reach_(reach) {
+        for (int dy = -reach; dy <= reach; ++dy)
+            for (int dx = -reach; dx <= reach; ++dx)
+                if (holds(dx, dy)) add({dx, dy});
+    }
+
+    // Calls visit(x, y) with unwrapped coordinates.
+    template <typename Visit>
+    void move_to(int x, int y, const Visit& visit) {
+        const int dx = x - x_, dy = y - y_;
+        const bool near = placed_ && std::abs(dx) <= 1 && std::abs(dy) <= 1;
+        x_ = x, y_ = y, placed_ = true;
+        if (near && dx == 0 && dy == 0) return;
+        for (const Offset& o : near ? entering_[(dy + 1) * 3 + dx + 1] : all_) visit(x + o.dx, y + o.dy);
+    }
+
+  private:
+    struct Offset {
+        int dx, dy;
+    };
+    bool holds(int dx, int dy) const { return dx * dx + dy * dy <= reach_ * reach_; }
+    void add(Offset o) {
+        all_.push_back(o);
+        for (int my = -1; my <= 1; ++my)
+            for (int mx = -1; mx <= 1; ++mx)
+                if (!holds(o.dx + mx, o.dy + my)) entering_[(my + 1) * 3 + mx + 1].push_back(o);
+    }
+
+    int reach_, x_ = 0, y_ = 0;
+    bool placed_ = false;
+    std::vector<Offset> all_, entering_[9];  // by the move that brings them in
+};
+
 // Which chain each texel is a part of: its index, nobody's, or several chains'.
 std::vector<std::int32_t> claim_texels(const std::vector<Chain>& chains, const Lattice& lattice) {
     std::vector<std::int32_t> owner(static_cast<std::size_t>(lattice.size()), kNobody);
     for (std::size_t c = 0; c < chains.size(); ++c) {
-        const int reach = static_cast<int>(std::ceil(chains[c].half_width + 1.0));
+        MovingDisc disc(static_cast<int>(std::ceil(chains[c].half_width + 1.0)));
         for_each_place(chains[c], [&](Vec2 p, Vec2) {
-            for_each_texel_near(p, lattice, reach, [&](int texel, Vec2) {
+            disc.move_to(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)), [&](int x, int y) {
+                const int texel = lattice.index(x, y);
+                if (texel < 0) return;
                 const bool free = owner[texel] == kNobody || owner[texel] == static_cast<std::int32_t>(c);
                 owner[texel] = free ? static_cast<std::int32_t>(c) : kSeveral;
             });
@@ -247,39 +286,48 @@ bool stands_alone(const Chain& chain, std::int32_t self, const Surroundings& aro
            section.explained > 0.93;
 }
 
-// The chains that are lines; of one that is not, the parts before and behind its greatest change that are.
-std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map, const Lattice& lattice, double noise,
-                              double least_energy, const LineScale& scale) {
+// A chain that is a line; of one that is not, the parts before and behind its greatest change that are.
+std::vector<Chain> keep_lines(const Chain& whole, std::int32_t self, const Surroundings& around, double least_energy,
+                              const LineScale& scale) {
     struct Part {
         Chain chain;
-        std::int32_t of = 0;  // index of the chain it is a part of
         int splits = 0;
     };
-    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
-    const Surroundings around{map, lattice, owner, noise};
     std::vector<Chain> kept;
-    std::vector<Part> stack;
-    for (std::size_t c = chains.size(); c-- > 0;) stack.push_back({chains[c], static_cast<std::int32_t>(c), 0});
+    std::vector<Part> stack{{whole, 0}};
     while (!stack.empty()) {
-        auto [chain, of, splits] = std::move(stack.back());
+        auto [chain, splits] = std::move(stack.back());
         stack.pop_back();
         if (chain_energy(chain) < least_energy) continue;
-        if (is_supported(chain) && is_line(chain, of, around) && 
-            (scale.radius == scale.widest || stands_alone(chain, of, around, scale.radius))) {
+        if (is_supported(chain) && is_line(chain, self, around) &&
+            (scale.radius == scale.widest || stands_alone(chain, self, around, scale.radius))) {
             kept.push_back(std::move(chain));
             continue;
         }
         const bool splits_well = splits < 3 && !chain.closed && chain.points.size() >= 24 && chain.half_width <= kBroad;
-        const std::size_t at = splits_well ? find_change(chain, map, lattice) : 0;
+        const std::size_t at = splits_well ? find_change(chain, around.map, around.lattice) : 0;
         if (at == 0) continue;
         Chain second = chain;
         second.points.erase(second.points.begin(), second.points.begin() + static_cast<std::ptrdiff_t>(at));
         second.start_tie = EndTie::free;
         chain.points.resize(at);
         chain.end_tie = EndTie::free;
-        stack.push_back({std::move(second), of, splits + 1});
-        stack.push_back({std::move(chain), of, splits + 1});
+        stack.push_back({std::move(second), splits + 1});
+        stack.push_back({std::move(chain), splits + 1});
     }
+    return kept;
+}
+
+std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map, const Lattice& lattice, double noise,
+                              double least_energy, const LineScale& scale) {
+    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
+    const Surroundings around{map, lattice, owner, noise};
+    std::vector<std::vector<Chain>> parts(chains.size());
+    for_each_piece(chains.size(), lattice.threads, [&](std::size_t c) {
+        parts[c] = keep_lines(chains[c], static_cast<std::int32_t>(c), around, least_energy, scale);
+    });
+    std::vector<Chain> kept;
+    for (std::vector<Chain>& some : parts) std::move(some.begin(), some.end(), std::back_inserter(kept));
     return kept;
 }
 
@@ -403,16 +451,18 @@ void change_texel(Image& map, int texel, float change, Erased& erased) {
 void erase_crossings(Image& map, const Lattice& lattice, const std::vector<std::int32_t>& owner,
                      const std::vector<int>& covered, ChainKind kind, const LineScale& scale, double least, Erased& erased) {
     const int near = 2 * square_radius(scale.radius);
+    // Texels beside a crossing in its row; those above and below are looked for from where it matters.
+    std::vector<std::uint8_t> beside(owner.size(), 0);
+    for (int i = 0; i < lattice.size(); ++i)
+        for (int dx = -near; owner[i] == kSeveral && dx <= near; ++dx)
+            beside[lattice.nearest(i % lattice.width + dx, i / lattice.width)] = 1;
     const auto is_near_crossing = [&](int texel) {
-        const int x = texel % lattice.width, y = texel / lattice.width;
         for (int dy = -near; dy <= near; ++dy)
-            for (int dx = -near; dx <= near; ++dx)
-                if (owner[lattice.nearest(x + dx, y + dy)] == kSeveral) return true;
+            if (beside[lattice.nearest(texel % lattice.width, texel / lattice.width + dy)]) return true;
         return false;
     };
     std::vector<int> texels;
-    if (std::find(owner.begin(), owner.end(), kSeveral) != owner.end())
-        std::copy_if(covered.begin(), covered.end(), std::back_inserter(texels), is_near_crossing);
+    std::copy_if(covered.begin(), covered.end(), std::back_inserter(texels), is_near_crossing);
     const std::vector<float> left = hat_at(map, lattice, kind, square_radius(scale.widest), least, texels);
     for (std::size_t k = 0; k < texels.size(); ++k) change_texel(map, texels[k], sign_of(kind) * left[k], erased);
 }
