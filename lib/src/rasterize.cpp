@@ -27,6 +27,9 @@ struct Entry {
     Vec2 shift;
 };
 
+// How an element lies to a texel: it acts nowhere in it; everywhere, by the offset from its path alone; or in part of it.
+enum class Nearness { absent, inside, partly };
+
 // What an element does over a whole texel.
 enum class Cover { absent, plane, mixed };
 struct Plane {
@@ -35,9 +38,29 @@ struct Plane {
     bool internal = false;
 };
 
+// A line that acts everywhere in a texel: its offset at the texel's centre, and how that grows.
+struct Strip {
+    const PreparedElement* element;
+    double offset;
+    Vec2 normal;
+};
+
 // Where a row of samples crosses a step path line, and the levels to both sides in x.
 struct RowCrossing {
     double x, before, after;
+};
+
+// Samples up to `end` of a row of samples, of one level.
+struct SampleRun {
+    int end;
+    double level;
+};
+
+// Texels up to `end` of a row of texels, of one level; or a single texel of several, one for each of its samples.
+struct TexelRun {
+    int end;
+    double level;
+    std::vector<double> levels;
 };
 
 class Rasterizer {
@@ -54,16 +77,19 @@ class Rasterizer {
     bool can_act(const PreparedElement& e, Vec2 p, double radius) const;
     void draw_bucket_row(int row, Image& image) const;
     void draw_texel_row(int y, Image& image) const;
-    float draw_texel(int x, int y, const std::vector<Entry>& bucket, const std::vector<double>& levels) const;
+    float draw_texel(int x, int y, const std::vector<Entry>& bucket, const TexelRun& run) const;
 
-    void find_levels(int y, std::vector<double>& levels) const;
+    std::vector<TexelRun> find_levels(int y) const;
     void cross_row(const Entry& entry, double y, std::vector<RowCrossing>& crossings) const;
-    void fill_row(double y, std::vector<RowCrossing>& crossings, double* levels) const;
+    std::vector<SampleRun> find_runs(double y, std::vector<RowCrossing>& crossings) const;
 
-    Cover cover_of(const Entry& entry, Vec2 centre, double ground, Plane& plane) const;
+    Nearness nearness_of(const Entry& entry, Vec2 centre, Foot& foot) const;
     Cover cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground,
                           Plane& plane) const;
     bool merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const;
+    void sample_strip(const Strip& strip, const TexelRun& run, std::vector<double>& bases, std::vector<double>& cuts) const;
+    double mean_of_strips(const std::vector<Strip>& strips, const TexelRun& run) const;
+    double mean_of_samples(int x, int y, const std::vector<Entry>& entries, const TexelRun& run, bool height_field) const;
     double sample(const std::vector<Entry>& entries, Vec2 p, double ground) const;
     // Rays begin at the object surface and end at the deepest point: a reader sees nothing beyond.
     double seen(double z) const { return std::clamp(z, base_offset_ - truth_.depth, base_offset_); }
@@ -210,11 +236,12 @@ void Rasterizer::cross_row(const Entry& entry, double y, std::vector<RowCrossing
 
 // Levels at the samples of one row. Where neighbouring crossings do not agree (they touch) the truth is
 // asked.
-void Rasterizer::fill_row(double y, std::vector<RowCrossing>& crossings, double* levels) const {
+std::vector<SampleRun> Rasterizer::find_runs(double y, std::vector<RowCrossing>& crossings) const {
     std::erase_if(crossings, [&](const RowCrossing& c) { return c.x < 0.0 || c.x > truth_.size.x; });
     std::sort(crossings.begin(), crossings.end(), [](const RowCrossing& a, const RowCrossing& b) {
         return a.x != b.x ? a.x < b.x : a.before < b.before;
     });
+    std::vector<SampleRun> runs;
     const double pitch = texel_.x / samples_;
     const int first = region_.x * samples_, count = region_.width * samples_;
     int at = 0;
@@ -234,25 +261,47 @@ void Rasterizer::fill_row(double y, std::vector<RowCrossing>& crossings, double*
         const bool next_tie = i + 1 < crossings.size() && crossings[i + 1].x - to < 1e-9 * truth_.size.x;
         if ((open_start && open_end) || differ || (open_end && tie) || (open_start && next_tie))
             level = owner_.ground_at({0.5 * (from + to), y});
-        std::fill(levels + at, levels + end, level);
+        runs.push_back({end, level});
         at = end;
     }
+    return runs;
 }
 
-// Levels at all samples of texel row y, sample rows one after another. Empty when there is no step at all.
-void Rasterizer::find_levels(int y, std::vector<double>& levels) const {
-    levels.clear();
-    if (truth_.steps.empty()) return;
-    const std::size_t count = static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(samples_);
-    levels.resize(count * static_cast<std::size_t>(samples_));
+// Levels of texel row y, from those of its rows of samples.
+std::vector<TexelRun> Rasterizer::find_levels(int y) const {
+    if (truth_.steps.empty()) return {{region_.width, truth_.outer_level, {}}};
     std::vector<RowCrossing> crossings;
+    std::vector<std::vector<SampleRun>> rows;
     for (int s = 0; s < samples_; ++s) {
         const double v = (y + (s + 0.5) / samples_) * texel_.y;
         crossings.clear();
         for (const Entry& entry : step_rows_[static_cast<std::size_t>(y / kBucket - first_row_)])
             cross_row(entry, v, crossings);
-        fill_row(v, crossings, levels.data() + count * static_cast<std::size_t>(s));
+        rows.push_back(find_runs(v, crossings));
     }
+    std::vector<TexelRun> texels;
+    std::vector<std::size_t> at(rows.size(), 0);
+    for (int x = 0; x < region_.width;) {
+        int end = region_.width;  // as far as all rows have one level
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+            while (rows[j][at[j]].end <= x * samples_) ++at[j];
+            const SampleRun& run = rows[j][at[j]];
+            end = run.level == rows[0][at[0]].level ? std::min(end, run.end / samples_) : x;
+        }
+        if (end > x) {
+            texels.push_back({end, rows[0][at[0]].level, {}});
+            x = end;
+            continue;
+        }
+        TexelRun mixed{++x, rows[0][at[0]].level, {}};
+        for (std::size_t j = 0; j < rows.size(); ++j)
+            for (int i = (x - 1) * samples_; i < x * samples_; ++i) {
+                while (rows[j][at[j]].end <= i) ++at[j];
+                mixed.levels.push_back(rows[j][at[j]].level);
+            }
+        texels.push_back(std::move(mixed));
+    }
+    return texels;
 }
 
 // ---- one texel
@@ -296,26 +345,26 @@ Cover Rasterizer::cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& 
     return Cover::mixed;
 }
 
-Cover Rasterizer::cover_of(const Entry& entry, Vec2 centre, double ground, Plane& plane) const {
+Nearness Rasterizer::nearness_of(const Entry& entry, Vec2 centre, Foot& foot) const {
     const PreparedElement& e = *entry.element;
     const Vec2 p = centre - entry.shift;
     const double r = radius_ * (1.0 + 1e-9);
-    if (!near_box(e.box, p, r)) return Cover::absent;
-    const Foot foot = truth::find_foot(e, p);
-    if (std::abs(foot.offset) > e.reach + r) return Cover::absent;
+    if (!near_box(e.box, p, r)) return Nearness::absent;
+    foot = truth::find_foot(e, p);
+    if (std::abs(foot.offset) > e.reach + r) return Nearness::absent;
     bool clear = !e.scaled && truth_.profiles[e.profile].height_field && e.width0 > 0.0;
     for (const PreparedEnd& end : e.ends) {
         const double a = dot(p - end.vertex, end.outward), c = dot(p - end.vertex, end.clip_inward);
         const bool stops = end.priority == Priority::none;
         const bool caps = end.priority == Priority::both && end.end != EndShape::clip;
         const bool clips = end.priority == Priority::both && end.end == EndShape::clip;
-        if (stops && a > r) return Cover::absent;
-        if (clips && c < -r) return Cover::absent;
-        if (caps && a > e.reach + r) return Cover::absent;
+        if (stops && a > r) return Nearness::absent;
+        if (clips && c < -r) return Nearness::absent;
+        if (caps && a > e.reach + r) return Nearness::absent;
         // Inside the end everywhere in the texel, whatever the side; a clip lets b' = b also beyond the end.
         if (!(clips ? c > r : a < -r && (stops || caps || c > r))) clear = false;
     }
-    return clear ? cover_by_offset(e, p, foot, ground, plane) : Cover::mixed;
+    return clear ? Nearness::inside : Nearness::partly;
 }
 
 // min(max(ground, adds), cuts) where one plane rules over the whole texel; false where planes cross in it.
@@ -363,65 +412,117 @@ double Rasterizer::sample(const std::vector<Entry>& entries, Vec2 p, double grou
     return std::min(base, cut);
 }
 
-float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket,
-                             const std::vector<double>& levels) const {
-    const std::size_t row = static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(samples_);
-    const std::size_t first = static_cast<std::size_t>(x - region_.x) * static_cast<std::size_t>(samples_);
-    const std::size_t n = static_cast<std::size_t>(samples_);
-    const auto level_of = [&](std::size_t i, std::size_t j) {
-        return levels.empty() ? truth_.outer_level : levels[row * j + first + i];
-    };
-    const double ground = level_of(0, 0);
-    bool uniform = true;
-    for (std::size_t k = 0; k < n * n && uniform && !levels.empty(); ++k)
-        uniform = level_of(k % n, k / n) == ground;
-    if (uniform && bucket.empty()) return value_of(ground);
-
-    const Vec2 centre = texel_centre(x, y);
-    thread_local std::vector<Entry> entries;  // those that act in this texel
-    thread_local std::vector<Plane> planes;
-    entries.clear();
-    planes.clear();
-    bool mixed = !uniform, height_field = true;
-    for (const Entry& entry : bucket) {
-        Plane plane;
-        const Cover cover = uniform ? cover_of(entry, centre, ground, plane) : Cover::mixed;
-        if (cover == Cover::absent) continue;
-        entries.push_back(entry);
-        planes.push_back(plane);
-        mixed = mixed || cover == Cover::mixed;
-        height_field = height_field && truth_.profiles[entry.element->profile].height_field;
+// What a strip does to the samples of a texel: raises their bases, lowers their cuts.
+void Rasterizer::sample_strip(const Strip& strip, const TexelRun& run, std::vector<double>& bases,
+                              std::vector<double>& cuts) const {
+    const PreparedElement& e = *strip.element;
+    const PreparedProfile& profile = truth_.profiles[e.profile];
+    const double half = 0.5 * (samples_ - 1) / samples_;
+    const double reach = half * (std::abs(strip.normal.x) * texel_.x + std::abs(strip.normal.y) * texel_.y);
+    const double lowest = (strip.offset - reach) / e.width0 - 1e-12;
+    std::size_t first = 0;
+    while (first + 2 < profile.points.size() && profile.points[first + 1].b <= lowest) ++first;
+    for (std::size_t k = 0; k < bases.size(); ++k) {
+        const double dx = (static_cast<double>(static_cast<int>(k) % samples_) + 0.5) / samples_ - 0.5;
+        const double dy = (static_cast<double>(static_cast<int>(k) / samples_) + 0.5) / samples_ - 0.5;
+        const double offset = strip.offset + strip.normal.x * dx * texel_.x + strip.normal.y * dy * texel_.y;
+        const double b = offset / e.width0, ground = run.levels.empty() ? run.level : run.levels[k];
+        if (b < profile.low || b >= profile.high) continue;
+        const bool left = std::abs(ground - e.left_level) <= truth_.level_tolerance;
+        const bool right = std::abs(ground - e.right_level) <= truth_.level_tolerance;
+        if (std::abs(offset) <= 1e-12 * truth_.size.x ? !left && !right : !(offset < 0.0 ? left : right)) continue;
+        std::size_t i = first;
+        while (i + 2 < profile.points.size() && profile.points[i + 1].b <= b) ++i;
+        const double z = e.level + e.height0 * (profile.points[i].h + profile.slope[i] * (b - profile.points[i].b));
+        bases[k] = std::max(bases[k], z);
+        if ((profile.internal_mask >> i) & 1u) cuts[k] = std::min(cuts[k], z);
     }
-    double mean = 0.0;
-    if (!mixed && merge_planes(planes, ground, mean)) return value_of(mean);
+}
 
+double Rasterizer::mean_of_strips(const std::vector<Strip>& strips, const TexelRun& run) const {
+    thread_local std::vector<double> bases, cuts;
+    const std::size_t count = static_cast<std::size_t>(samples_) * static_cast<std::size_t>(samples_);
+    if (run.levels.empty())
+        bases.assign(count, run.level);
+    else
+        bases = run.levels;
+    cuts.assign(count, 1e300);
+    for (const Strip& strip : strips) sample_strip(strip, run, bases, cuts);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < count; ++k) sum += seen(std::min(bases[k], cuts[k]));
+    return sum / static_cast<double>(count);
+}
+
+double Rasterizer::mean_of_samples(int x, int y, const std::vector<Entry>& entries, const TexelRun& run,
+                                   bool height_field) const {
     std::vector<std::uint32_t> candidates;
     if (!height_field)
         for (const Entry& entry : entries)
             candidates.push_back(static_cast<std::uint32_t>(entry.element - truth_.elements.data()));
     std::sort(candidates.begin(), candidates.end());
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    const std::size_t n = static_cast<std::size_t>(samples_);
     double sum = 0.0;
     for (std::size_t k = 0; k < n * n; ++k) {
-        const std::size_t i = k % n, j = k / n;
-        const Vec2 p{(x + (static_cast<double>(i) + 0.5) / samples_) * texel_.x,
-                     (y + (static_cast<double>(j) + 0.5) / samples_) * texel_.y};
-        sum += seen(height_field ? sample(entries, p, level_of(i, j))
-                                 : owner_.surface_at(p, candidates, level_of(i, j)).height);
+        const double ground = run.levels.empty() ? run.level : run.levels[k];
+        const Vec2 p{(x + (static_cast<double>(k % n) + 0.5) / samples_) * texel_.x,
+                     (y + (static_cast<double>(k / n) + 0.5) / samples_) * texel_.y};
+        sum += seen(height_field ? sample(entries, p, ground) : owner_.surface_at(p, candidates, ground).height);
     }
-    return value_of(sum / static_cast<double>(n * n));
+    return sum / static_cast<double>(n * n);
+}
+
+float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket, const TexelRun& run) const {
+    const bool uniform = run.levels.empty();
+    const Vec2 centre = texel_centre(x, y);
+    thread_local std::vector<Entry> entries;  // those that act in this texel
+    thread_local std::vector<Plane> planes;
+    thread_local std::vector<Strip> strips;
+    entries.clear();
+    planes.clear();
+    strips.clear();
+    bool mixed = !uniform, height_field = true;
+    for (const Entry& entry : bucket) {
+        const PreparedElement& e = *entry.element;
+        Foot foot;
+        Plane plane;
+        const Nearness nearness = nearness_of(entry, centre, foot);
+        if (nearness == Nearness::absent) continue;
+        const bool inside = nearness == Nearness::inside;
+        const Cover cover =
+            uniform && inside ? cover_by_offset(e, centre - entry.shift, foot, run.level, plane) : Cover::mixed;
+        if (cover == Cover::absent) continue;
+        entries.push_back(entry);
+        planes.push_back(plane);
+        if (inside && e.kind == ElementKind::line) strips.push_back({&e, foot.offset, normal_of(e.tangent)});
+        mixed = mixed || cover == Cover::mixed;
+        height_field = height_field && truth_.profiles[e.profile].height_field;
+    }
+    double mean = 0.0;
+    if (!mixed && merge_planes(planes, run.level, mean)) return value_of(mean);
+    if (strips.size() == entries.size()) return value_of(mean_of_strips(strips, run));
+    return value_of(mean_of_samples(x, y, entries, run, height_field));
 }
 
 // ---- the map
 // -------------------------------------------------------------------------------------------------
 
 void Rasterizer::draw_texel_row(int y, Image& image) const {
-    thread_local std::vector<double> levels;
-    find_levels(y, levels);
+    const std::vector<TexelRun> levels = find_levels(y);
     const std::vector<Entry>* row = &buckets_[static_cast<std::size_t>(y / kBucket - first_row_) *
                                               static_cast<std::size_t>(bucket_columns())];
-    for (int x = region_.x; x < region_.x + region_.width; ++x)
-        image.at(x - region_.x, y - region_.y) = draw_texel(x, y, row[x / kBucket - first_column_], levels);
+    float* out = &image.at(0, y - region_.y);
+    int x = 0;  // within the region
+    for (const TexelRun& run : levels) {
+        const float empty = value_of(run.level);
+        while (x < run.end) {
+            const int column = (x + region_.x) / kBucket;
+            const std::vector<Entry>& bucket = row[column - first_column_];
+            const int end = std::min(run.end, (column + 1) * kBucket - region_.x);
+            if (bucket.empty() && run.levels.empty()) std::fill(out + x, out + end, empty), x = end;
+            for (; x < end; ++x) out[x] = draw_texel(x + region_.x, y, bucket, run);
+        }
+    }
 }
 
 void Rasterizer::draw_bucket_row(int row, Image& image) const {
