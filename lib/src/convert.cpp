@@ -140,17 +140,29 @@ struct Candidate {
     ConvertStats stats;  // counts and figures of this candidate
 };
 
-Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
-                                   std::size_t budget, StageClock& clock) {
+Result<Candidate> pack_candidate(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
+                                 std::size_t budget, StageClock& clock) {
     Candidate candidate;
     auto packed = pack_pattern(traced.pattern, map, options, budget, clock, candidate.stats);
     if (!packed) return packed.error();
-    if (!clock.begin("measure")) return stopped();
-    const Status measured = measure(map, packed->textures, packed->detail, options.threads, candidate.stats);
-    if (!measured) return measured.error();
     candidate.packed = std::move(*packed);
     candidate.traced = std::move(traced);
     return candidate;
+}
+
+Result<Candidate> measure_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options, StageClock& clock) {
+    if (!clock.begin("measure")) return stopped();
+    const Packed& packed = candidate.packed;
+    const Status measured = measure(map, packed.textures, packed.detail, options.threads, candidate.stats);
+    if (!measured) return measured.error();
+    return candidate;
+}
+
+Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
+                                   std::size_t budget, StageClock& clock) {
+    auto candidate = pack_candidate(std::move(traced), map, options, budget, clock);
+    if (!candidate) return candidate;
+    return measure_candidate(std::move(*candidate), map, options, clock);
 }
 
 // Vectorizes with ever fewer elements until the textures keep to the budget. `detail`: the map, or what of it to trace.
@@ -159,17 +171,20 @@ Result<Candidate> trace_within(const HeightMap& detail, const HeightMap& map, co
     VectorizeOptions vectorize = options.vectorize;
     vectorize.threads = options.threads;
     if (!clock.begin("vectorize")) return stopped();
-    const auto traced = trace_map(detail, vectorize, progress);
+    auto traced = trace_map(detail, vectorize, progress);
     if (!traced) return traced.error();
     for (int attempt = 0;; ++attempt) {
         if (!clock.begin("vectorize")) return stopped();
         auto fitted = fit_traced_map(*traced, detail, vectorize, progress);
         if (!fitted) return fitted.error();
-        auto candidate = pack_and_measure(std::move(*fitted), map, options, budget, clock);
+        auto candidate = pack_candidate(std::move(*fitted), map, options, budget, clock);
         if (!candidate) return candidate.error();
         const std::size_t bytes = texture_bytes(candidate->packed.textures);
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
-        if (bytes <= budget || attempt == 3 || elements <= 16) return candidate;
+        if (bytes <= budget || attempt == 3 || elements <= 16) {
+            *traced = {};  // measuring needs room of its own
+            return measure_candidate(std::move(*candidate), map, options, clock);
+        }
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
         vectorize.most_elements = std::max(16, static_cast<int>(most * 0.85 * static_cast<double>(budget) / bytes));
     }
