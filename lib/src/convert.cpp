@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include <burin/compare.hpp>
 #include <burin/rasterize.hpp>
@@ -78,7 +79,8 @@ Status measure(const HeightMap& map, const PackedTextures& textures, const PathD
     options.threads = threads;
     options.level_tolerance = 4e-5;  // levels and heights come from 16-bit codes
     const Image heights = rasterize_height(unpacked->pattern, map.image.width, map.image.height, options);
-    const Comparison figures = compare_heights(heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp);
+    const Comparison figures = compare_heights(heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp,
+                                               threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
     stats.explained = figures.explained;
     stats.path_like = figures.explained >= kPathLikeShare;
     stats.rms = figures.rms;

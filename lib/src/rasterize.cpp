@@ -21,10 +21,11 @@ using Prepared = Truth::Prepared;
 
 constexpr int kBucket = 8;  // texels per side; smaller ones cost more to fill than they save
 
-// One tile image of an element.
+// One tile image of an element, over a bucket.
 struct Entry {
     const PreparedElement* element;
     Vec2 shift;
+    bool inside;  // it lies to every texel of the bucket as Nearness::inside says
 };
 
 // How an element lies to a texel: it acts nowhere in it; everywhere, by the offset from its path alone; or in part of it.
@@ -75,6 +76,7 @@ class Rasterizer {
     void fill_buckets();
     void fill_step_rows();
     bool can_act(const PreparedElement& e, Vec2 p, double radius) const;
+    bool acts_by_offset(const PreparedElement& e, Vec2 p, double radius) const;
     void draw_bucket_row(int row, Image& image) const;
     void draw_texel_row(int y, Image& image) const;
     float draw_texel(int x, int y, const std::vector<Entry>& bucket, const TexelRun& run) const;
@@ -105,6 +107,7 @@ class Rasterizer {
     TexelRegion region_;
     Vec2 texel_;     // metres per texel
     double radius_;  // half the diagonal of a texel
+    std::vector<Vec2> around_;  // the samples of a texel, from its centre
     Vec2 spread_;    // mean square distance of the samples from the centre, per axis
     int first_column_ = 0, last_column_ = 0, first_row_ = 0, last_row_ = 0;
     std::vector<std::vector<Entry>> buckets_;
@@ -129,6 +132,9 @@ Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, co
     radius_ = 0.5 * length(texel_);
     const double share = (1.0 - 1.0 / (samples_ * samples_)) / 12.0;
     spread_ = {texel_.x * texel_.x * share, texel_.y * texel_.y * share};
+    for (int j = 0; j < samples_; ++j)
+        for (int i = 0; i < samples_; ++i)
+            around_.push_back({((i + 0.5) / samples_ - 0.5) * texel_.x, ((j + 0.5) / samples_ - 0.5) * texel_.y});
     first_column_ = region_.x / kBucket;
     last_column_ = (region_.x + region_.width - 1) / kBucket;
     first_row_ = region_.y / kBucket;
@@ -157,6 +163,19 @@ bool Rasterizer::can_act(const PreparedElement& e, Vec2 p, double radius) const 
     return std::abs(truth::find_foot(e, p).offset) <= e.reach + slack;
 }
 
+// True only where the element acts at all points within `radius` of p, as far as its reach goes, with b' = b.
+bool Rasterizer::acts_by_offset(const PreparedElement& e, Vec2 p, double radius) const {
+    if (e.scaled || !truth_.profiles[e.profile].height_field || !(e.width0 > 0.0)) return false;
+    for (const PreparedEnd& end : e.ends) {
+        const double a = dot(p - end.vertex, end.outward), c = dot(p - end.vertex, end.clip_inward);
+        const bool stops = end.priority == Priority::none, ends = end.priority == Priority::both;
+        // A clip lets b' = b also beyond the end.
+        const bool clear = ends && end.end == EndShape::clip ? c > radius : a < -radius && (stops || ends || c > radius);
+        if (!clear) return false;
+    }
+    return true;
+}
+
 void Rasterizer::fill_buckets() {
     const Vec2 side = texel_ * kBucket;
     const double radius = 0.5 * length(side);
@@ -182,7 +201,7 @@ void Rasterizer::fill_buckets() {
                     buckets_[static_cast<std::size_t>(y - first_row_) *
                                  static_cast<std::size_t>(bucket_columns()) +
                              static_cast<std::size_t>(x - first_column_)]
-                        .push_back({&e, shift});
+                        .push_back({&e, shift, acts_by_offset(e, centre - shift, radius)});
                 }
             }
         });
@@ -197,7 +216,7 @@ void Rasterizer::fill_step_rows() {
         for (int row = first_row_; row <= last_row_; ++row)
             truth::for_each_image(
                 truth_, e.box, {0.0, row * side}, {truth_.size.x, (row + 1) * side}, [&](Vec2 shift) {
-                    step_rows_[static_cast<std::size_t>(row - first_row_)].push_back({&e, shift});
+                    step_rows_[static_cast<std::size_t>(row - first_row_)].push_back({&e, shift, false});
                 });
     }
 }
@@ -349,10 +368,14 @@ Nearness Rasterizer::nearness_of(const Entry& entry, Vec2 centre, Foot& foot) co
     const PreparedElement& e = *entry.element;
     const Vec2 p = centre - entry.shift;
     const double r = radius_ * (1.0 + 1e-9);
+    if (entry.inside && e.kind == ElementKind::line) {
+        foot = {dot(p - e.p0, normal_of(e.tangent)), 0.5};
+        return std::abs(foot.offset) > e.reach + r ? Nearness::absent : Nearness::inside;
+    }
     if (!near_box(e.box, p, r)) return Nearness::absent;
     foot = truth::find_foot(e, p);
     if (std::abs(foot.offset) > e.reach + r) return Nearness::absent;
-    bool clear = !e.scaled && truth_.profiles[e.profile].height_field && e.width0 > 0.0;
+    if (entry.inside) return Nearness::inside;
     for (const PreparedEnd& end : e.ends) {
         const double a = dot(p - end.vertex, end.outward), c = dot(p - end.vertex, end.clip_inward);
         const bool stops = end.priority == Priority::none;
@@ -361,10 +384,8 @@ Nearness Rasterizer::nearness_of(const Entry& entry, Vec2 centre, Foot& foot) co
         if (stops && a > r) return Nearness::absent;
         if (clips && c < -r) return Nearness::absent;
         if (caps && a > e.reach + r) return Nearness::absent;
-        // Inside the end everywhere in the texel, whatever the side; a clip lets b' = b also beyond the end.
-        if (!(clips ? c > r : a < -r && (stops || caps || c > r))) clear = false;
     }
-    return clear ? Nearness::inside : Nearness::partly;
+    return acts_by_offset(e, p, r) ? Nearness::inside : Nearness::partly;
 }
 
 // min(max(ground, adds), cuts) where one plane rules over the whole texel; false where planes cross in it.
@@ -417,23 +438,27 @@ void Rasterizer::sample_strip(const Strip& strip, const TexelRun& run, std::vect
                               std::vector<double>& cuts) const {
     const PreparedElement& e = *strip.element;
     const PreparedProfile& profile = truth_.profiles[e.profile];
-    const double half = 0.5 * (samples_ - 1) / samples_;
+    const double half = 0.5 * (samples_ - 1) / samples_, per_width = 1.0 / e.width0;
     const double reach = half * (std::abs(strip.normal.x) * texel_.x + std::abs(strip.normal.y) * texel_.y);
-    const double lowest = (strip.offset - reach) / e.width0 - 1e-12;
+    const double lowest = (strip.offset - reach) * per_width - 1e-12, on_line = 1e-12 * truth_.size.x;
+    const ProfilePoint* const points = profile.points.data();
+    const std::size_t last = profile.points.size() - 2;  // facet
     std::size_t first = 0;
-    while (first + 2 < profile.points.size() && profile.points[first + 1].b <= lowest) ++first;
+    while (first < last && points[first + 1].b <= lowest) ++first;
+    bool left = true, right = true;  // whether the ground is that of a side
+    const auto find_sides = [&](double ground) {
+        left = std::abs(ground - e.left_level) <= truth_.level_tolerance;
+        right = std::abs(ground - e.right_level) <= truth_.level_tolerance;
+    };
+    find_sides(run.level);
     for (std::size_t k = 0; k < bases.size(); ++k) {
-        const double dx = (static_cast<double>(static_cast<int>(k) % samples_) + 0.5) / samples_ - 0.5;
-        const double dy = (static_cast<double>(static_cast<int>(k) / samples_) + 0.5) / samples_ - 0.5;
-        const double offset = strip.offset + strip.normal.x * dx * texel_.x + strip.normal.y * dy * texel_.y;
-        const double b = offset / e.width0, ground = run.levels.empty() ? run.level : run.levels[k];
+        const double offset = strip.offset + dot(strip.normal, around_[k]), b = offset * per_width;
         if (b < profile.low || b >= profile.high) continue;
-        const bool left = std::abs(ground - e.left_level) <= truth_.level_tolerance;
-        const bool right = std::abs(ground - e.right_level) <= truth_.level_tolerance;
-        if (std::abs(offset) <= 1e-12 * truth_.size.x ? !left && !right : !(offset < 0.0 ? left : right)) continue;
+        if (!run.levels.empty()) find_sides(run.levels[k]);
+        if (std::abs(offset) <= on_line ? !left && !right : !(offset < 0.0 ? left : right)) continue;
         std::size_t i = first;
-        while (i + 2 < profile.points.size() && profile.points[i + 1].b <= b) ++i;
-        const double z = e.level + e.height0 * (profile.points[i].h + profile.slope[i] * (b - profile.points[i].b));
+        while (i < last && points[i + 1].b <= b) ++i;
+        const double z = e.level + e.height0 * (points[i].h + profile.slope[i] * (b - points[i].b));
         bases[k] = std::max(bases[k], z);
         if ((profile.internal_mask >> i) & 1u) cuts[k] = std::min(cuts[k], z);
     }
