@@ -11,108 +11,10 @@
 #include <cassert>
 #include <thread>
 
-#include "evaluate_prepare.hpp"
+#include "rasterize_internal.hpp"
 
 namespace burin {
-namespace {
-
-using namespace truth;
-using Prepared = Truth::Prepared;
-
-constexpr int kBucket = 8;  // texels per side; smaller ones cost more to fill than they save
-
-// One tile image of an element, over a bucket.
-struct Entry {
-    const PreparedElement* element;
-    Vec2 shift;
-    bool inside;  // it lies to every texel of the bucket as Nearness::inside says
-};
-
-// How an element lies to a texel: it acts nowhere in it; everywhere, by the offset from its path alone; or in part of it.
-enum class Nearness { absent, inside, partly };
-
-// What an element does over a whole texel.
-enum class Cover { absent, plane, mixed };
-struct Plane {
-    double middle = 0;         // height at the texel's centre, corrected so that it is the mean
-    double low = 0, high = 0;  // bounds over the texel
-    bool internal = false;
-};
-
-// A line that acts everywhere in a texel: its offset at the texel's centre, and how that grows.
-struct Strip {
-    const PreparedElement* element;
-    double offset;
-    Vec2 normal;
-};
-
-// Where a row of samples crosses a step path line, and the levels to both sides in x.
-struct RowCrossing {
-    double x, before, after;
-};
-
-// Samples up to `end` of a row of samples, of one level.
-struct SampleRun {
-    int end;
-    double level;
-};
-
-// Texels up to `end` of a row of texels, of one level; or a single texel of several, one for each of its samples.
-struct TexelRun {
-    int end;
-    double level;
-    std::vector<double> levels;
-};
-
-class Rasterizer {
-  public:
-    Rasterizer(const ResolvedPattern& pattern, int width, int height, const RasterizeOptions& options);
-    Image run();
-
-  private:
-    int bucket_columns() const { return last_column_ - first_column_ + 1; }
-    Vec2 texel_centre(int x, int y) const { return {(x + 0.5) * texel_.x, (y + 0.5) * texel_.y}; }
-
-    void fill_buckets();
-    void fill_step_rows();
-    bool can_act(const PreparedElement& e, Vec2 p, double radius) const;
-    bool acts_by_offset(const PreparedElement& e, Vec2 p, double radius) const;
-    void draw_bucket_row(int row, Image& image) const;
-    void draw_texel_row(int y, Image& image) const;
-    float draw_texel(int x, int y, const std::vector<Entry>& bucket, const TexelRun& run) const;
-
-    std::vector<TexelRun> find_levels(int y) const;
-    void cross_row(const Entry& entry, double y, std::vector<RowCrossing>& crossings) const;
-    std::vector<SampleRun> find_runs(double y, std::vector<RowCrossing>& crossings) const;
-
-    Nearness nearness_of(const Entry& entry, Vec2 centre, Foot& foot) const;
-    Cover cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground,
-                          Plane& plane) const;
-    bool merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const;
-    void sample_strip(const Strip& strip, const TexelRun& run, std::vector<double>& bases, std::vector<double>& cuts) const;
-    double mean_of_strips(const std::vector<Strip>& strips, const TexelRun& run) const;
-    double mean_of_samples(int x, int y, const std::vector<Entry>& entries, const TexelRun& run, bool height_field) const;
-    double sample(const std::vector<Entry>& entries, Vec2 p, double ground) const;
-    // Rays begin at the object surface and end at the deepest point: a reader sees nothing beyond.
-    double seen(double z) const { return std::clamp(z, base_offset_ - truth_.depth, base_offset_); }
-    float value_of(double z) const {
-        return static_cast<float>(1.0 + (seen(z) - base_offset_) / truth_.depth);
-    }
-
-    Truth owner_;
-    const Prepared& truth_;
-    double base_offset_;
-    int width_, height_, samples_, threads_;
-    double tolerance_;
-    TexelRegion region_;
-    Vec2 texel_;     // metres per texel
-    double radius_;  // half the diagonal of a texel
-    std::vector<Vec2> around_;  // the samples of a texel, from its centre
-    Vec2 spread_;    // mean square distance of the samples from the centre, per axis
-    int first_column_ = 0, last_column_ = 0, first_row_ = 0, last_row_ = 0;
-    std::vector<std::vector<Entry>> buckets_;
-    std::vector<std::vector<Entry>> step_rows_;  // step path lines over each row of buckets
-};
+namespace rasterizing {
 
 Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, const RasterizeOptions& options)
     : owner_(pattern, TruthOptions{.level_tolerance = options.level_tolerance}),
@@ -143,11 +45,6 @@ Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, co
 
 // ---- buckets
 // -------------------------------------------------------------------------------------------------
-
-bool near_box(const Box& box, Vec2 p, double radius) {
-    return p.x + radius >= box.low.x && p.y + radius >= box.low.y && p.x - radius <= box.high.x &&
-           p.y - radius <= box.high.y;
-}
 
 // False only where the element acts at no point within `radius` of p.
 bool Rasterizer::can_act(const PreparedElement& e, Vec2 p, double radius) const {
@@ -323,212 +220,6 @@ std::vector<TexelRun> Rasterizer::find_levels(int y) const {
     return texels;
 }
 
-// ---- one texel
-// -----------------------------------------------------------------------------------------------
-
-// With b' = b over the whole texel: which facets it meets, and how much a curve bends the plane.
-Cover Rasterizer::cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground,
-                                  Plane& plane) const {
-    const PreparedProfile& profile = truth_.profiles[e.profile];
-    const double width = e.width0, height = e.height0;
-    const Vec2 t = truth::tangent_on(e, foot.parameter), n = normal_of(t);
-    double reach = 0.5 * (std::abs(n.x) * texel_.x + std::abs(n.y) * texel_.y), bend = 0.0;
-    if (e.kind == ElementKind::quadratic) {
-        // Second derivative of b along t: -k / (1 - k b), k the curvature.
-        const Vec2 d = e.edge + e.bend * foot.parameter;
-        const double l = length(d), k = l > 0.0 ? cross(d, e.bend) / (2.0 * l * l * l) : 1e300;
-        const double inside = 1.0 - k * foot.offset;
-        if (!(inside > 0.0) || std::abs(k) * radius_ > 0.1 * inside) return Cover::mixed;
-        bend = -k / inside;
-        reach += 0.6 * std::abs(bend) * radius_ * radius_;
-        static_cast<void>(p);
-    }
-    const double low = (foot.offset - reach) / width, high = (foot.offset + reach) / width;
-    if (high < profile.low || low > profile.high) return Cover::absent;
-    if (e.step && std::abs(foot.offset) <= reach) return Cover::mixed;
-    const double side = foot.offset < 0.0 ? e.left_level : e.right_level;
-    if (std::abs(ground - side) > truth_.level_tolerance) return Cover::absent;
-    for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
-        if (low < profile.points[i].b || high > profile.points[i + 1].b) continue;
-        const double slope = height * profile.slope[i] / width;
-        const double h =
-            height * (profile.points[i].h + profile.slope[i] * (foot.offset / width - profile.points[i].b));
-        const double correction = 0.5 * slope * bend * (t.x * t.x * spread_.x + t.y * t.y * spread_.y);
-        if (correction != 0.0 && !(std::abs(correction * bend) * radius_ < tolerance_)) return Cover::mixed;
-        plane.middle = e.level + h + correction;
-        plane.low = e.level + h - std::abs(slope) * reach;
-        plane.high = e.level + h + std::abs(slope) * reach;
-        plane.internal = (profile.internal_mask >> i) & 1u;
-        return Cover::plane;
-    }
-    return Cover::mixed;
-}
-
-Nearness Rasterizer::nearness_of(const Entry& entry, Vec2 centre, Foot& foot) const {
-    const PreparedElement& e = *entry.element;
-    const Vec2 p = centre - entry.shift;
-    const double r = radius_ * (1.0 + 1e-9);
-    if (entry.inside && e.kind == ElementKind::line) {
-        foot = {dot(p - e.p0, normal_of(e.tangent)), 0.5};
-        return std::abs(foot.offset) > e.reach + r ? Nearness::absent : Nearness::inside;
-    }
-    if (!near_box(e.box, p, r)) return Nearness::absent;
-    foot = truth::find_foot(e, p);
-    if (std::abs(foot.offset) > e.reach + r) return Nearness::absent;
-    if (entry.inside) return Nearness::inside;
-    for (const PreparedEnd& end : e.ends) {
-        const double a = dot(p - end.vertex, end.outward), c = dot(p - end.vertex, end.clip_inward);
-        const bool stops = end.priority == Priority::none;
-        const bool caps = end.priority == Priority::both && end.end != EndShape::clip;
-        const bool clips = end.priority == Priority::both && end.end == EndShape::clip;
-        if (stops && a > r) return Nearness::absent;
-        if (clips && c < -r) return Nearness::absent;
-        if (caps && a > e.reach + r) return Nearness::absent;
-    }
-    return acts_by_offset(e, p, r) ? Nearness::inside : Nearness::partly;
-}
-
-// min(max(ground, adds), cuts) where one plane rules over the whole texel; false where planes cross in it.
-bool Rasterizer::merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const {
-    Plane base{ground, ground, ground, false};
-    for (const Plane& plane : planes) {  // highest base
-        if (plane.low >= base.high)
-            base = plane;
-        else if (plane.high > base.low)
-            return false;
-    }
-    Plane cut{1e300, 1e300, 1e300, true};
-    for (const Plane& plane : planes) {  // lowest cut
-        if (!plane.internal) continue;
-        if (plane.high <= cut.low)
-            cut = plane;
-        else if (plane.low < cut.high)
-            return false;
-    }
-    if (cut.low < base.high && cut.high > base.low && !(cut.middle == base.middle && cut.low == base.low))
-        return false;
-    mean = std::min(base.middle, cut.middle);
-    return true;
-}
-
-double Rasterizer::sample(const std::vector<Entry>& entries, Vec2 p, double ground) const {
-    double base = ground, cut = 1e300;
-    Local local;
-    for (const Entry& entry : entries) {
-        const PreparedElement& e = *entry.element;
-        if (!near_box(e.box, p - entry.shift, 0.0) ||
-            !truth::acts_at(truth_, e, p - entry.shift, ground, local))
-            continue;
-        const PreparedProfile& profile = truth_.profiles[e.profile];
-        const double b = local.offset / local.width;
-        for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
-            if (!(profile.points[i].b <= b && b < profile.points[i + 1].b)) continue;
-            const double z =
-                e.level + local.height * (profile.points[i].h + profile.slope[i] * (b - profile.points[i].b));
-            base = std::max(base, z);
-            if ((profile.internal_mask >> i) & 1u) cut = std::min(cut, z);
-            break;
-        }
-    }
-    return std::min(base, cut);
-}
-
-// What a strip does to the samples of a texel: raises their bases, lowers their cuts.
-void Rasterizer::sample_strip(const Strip& strip, const TexelRun& run, std::vector<double>& bases,
-                              std::vector<double>& cuts) const {
-    const PreparedElement& e = *strip.element;
-    const PreparedProfile& profile = truth_.profiles[e.profile];
-    const double half = 0.5 * (samples_ - 1) / samples_, per_width = 1.0 / e.width0;
-    const double reach = half * (std::abs(strip.normal.x) * texel_.x + std::abs(strip.normal.y) * texel_.y);
-    const double lowest = (strip.offset - reach) * per_width - 1e-12, on_line = 1e-12 * truth_.size.x;
-    const ProfilePoint* const points = profile.points.data();
-    const std::size_t last = profile.points.size() - 2;  // facet
-    std::size_t first = 0;
-    while (first < last && points[first + 1].b <= lowest) ++first;
-    bool left = true, right = true;  // whether the ground is that of a side
-    const auto find_sides = [&](double ground) {
-        left = std::abs(ground - e.left_level) <= truth_.level_tolerance;
-        right = std::abs(ground - e.right_level) <= truth_.level_tolerance;
-    };
-    find_sides(run.level);
-    for (std::size_t k = 0; k < bases.size(); ++k) {
-        const double offset = strip.offset + dot(strip.normal, around_[k]), b = offset * per_width;
-        if (b < profile.low || b >= profile.high) continue;
-        if (!run.levels.empty()) find_sides(run.levels[k]);
-        if (std::abs(offset) <= on_line ? !left && !right : !(offset < 0.0 ? left : right)) continue;
-        std::size_t i = first;
-        while (i < last && points[i + 1].b <= b) ++i;
-        const double z = e.level + e.height0 * (points[i].h + profile.slope[i] * (b - points[i].b));
-        bases[k] = std::max(bases[k], z);
-        if ((profile.internal_mask >> i) & 1u) cuts[k] = std::min(cuts[k], z);
-    }
-}
-
-double Rasterizer::mean_of_strips(const std::vector<Strip>& strips, const TexelRun& run) const {
-    thread_local std::vector<double> bases, cuts;
-    const std::size_t count = static_cast<std::size_t>(samples_) * static_cast<std::size_t>(samples_);
-    if (run.levels.empty())
-        bases.assign(count, run.level);
-    else
-        bases = run.levels;
-    cuts.assign(count, 1e300);
-    for (const Strip& strip : strips) sample_strip(strip, run, bases, cuts);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < count; ++k) sum += seen(std::min(bases[k], cuts[k]));
-    return sum / static_cast<double>(count);
-}
-
-double Rasterizer::mean_of_samples(int x, int y, const std::vector<Entry>& entries, const TexelRun& run,
-                                   bool height_field) const {
-    std::vector<std::uint32_t> candidates;
-    if (!height_field)
-        for (const Entry& entry : entries)
-            candidates.push_back(static_cast<std::uint32_t>(entry.element - truth_.elements.data()));
-    std::sort(candidates.begin(), candidates.end());
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-    const std::size_t n = static_cast<std::size_t>(samples_);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < n * n; ++k) {
-        const double ground = run.levels.empty() ? run.level : run.levels[k];
-        const Vec2 p{(x + (static_cast<double>(k % n) + 0.5) / samples_) * texel_.x,
-                     (y + (static_cast<double>(k / n) + 0.5) / samples_) * texel_.y};
-        sum += seen(height_field ? sample(entries, p, ground) : owner_.surface_at(p, candidates, ground).height);
-    }
-    return sum / static_cast<double>(n * n);
-}
-
-float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket, const TexelRun& run) const {
-    const bool uniform = run.levels.empty();
-    const Vec2 centre = texel_centre(x, y);
-    thread_local std::vector<Entry> entries;  // those that act in this texel
-    thread_local std::vector<Plane> planes;
-    thread_local std::vector<Strip> strips;
-    entries.clear();
-    planes.clear();
-    strips.clear();
-    bool mixed = !uniform, height_field = true;
-    for (const Entry& entry : bucket) {
-        const PreparedElement& e = *entry.element;
-        Foot foot;
-        Plane plane;
-        const Nearness nearness = nearness_of(entry, centre, foot);
-        if (nearness == Nearness::absent) continue;
-        const bool inside = nearness == Nearness::inside;
-        const Cover cover =
-            uniform && inside ? cover_by_offset(e, centre - entry.shift, foot, run.level, plane) : Cover::mixed;
-        if (cover == Cover::absent) continue;
-        entries.push_back(entry);
-        planes.push_back(plane);
-        if (inside && e.kind == ElementKind::line) strips.push_back({&e, foot.offset, normal_of(e.tangent)});
-        mixed = mixed || cover == Cover::mixed;
-        height_field = height_field && truth_.profiles[e.profile].height_field;
-    }
-    double mean = 0.0;
-    if (!mixed && merge_planes(planes, run.level, mean)) return value_of(mean);
-    if (strips.size() == entries.size()) return value_of(mean_of_strips(strips, run));
-    return value_of(mean_of_samples(x, y, entries, run, height_field));
-}
-
 // ---- the map
 // -------------------------------------------------------------------------------------------------
 
@@ -573,11 +264,11 @@ Image Rasterizer::run() {
     return image;
 }
 
-}  // namespace
+}  // namespace rasterizing
 
 Image rasterize_height(const ResolvedPattern& pattern, int width, int height,
                        const RasterizeOptions& options) {
-    return Rasterizer(pattern, width, height, options).run();
+    return rasterizing::Rasterizer(pattern, width, height, options).run();
 }
 
 }  // namespace burin
