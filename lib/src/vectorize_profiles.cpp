@@ -10,26 +10,30 @@
 
 #include <burin/fit.hpp>
 
+#include "parallel.hpp"
+
 namespace burin::vectorizing {
 namespace {
 
-constexpr std::uint32_t kNobody = 0xffffffffu;
+constexpr std::uint32_t kNobody = 0x7fffffffu;
 
-// The nearest chain of a texel, and the signed offset from it.
+// The nearest chain of a texel, and the signed offset from it, whose magnitude is the distance.
 struct Owner {
-    float distance = 1e9f;
-    float offset = 0.0f;
-    std::uint32_t chain = kNobody;
-    bool beyond = false;  // past an open end, where the section does not hold
+    float offset = 1e9f;
+    std::uint32_t chain : 31 = kNobody;
+    std::uint32_t beyond : 1 = 0;  // past an open end, where the section does not hold
+
+    float distance() const { return std::fabs(offset); }
 };
 
 struct Piece {
     Vec2 a, b;
     bool first = false, last = false;  // at an open end of the chain
+    std::uint32_t chain = 0;
 };
 
-std::vector<Piece> flatten(const FittedChain& fitted) {
-    std::vector<Piece> pieces;
+void add_pieces(const FittedChain& fitted, std::uint32_t chain, std::vector<Piece>& pieces) {
+    const std::size_t before = pieces.size();
     for (const Element& e : fitted.elements) {
         int n = 1;
         if (e.kind == ElementKind::quadratic) {
@@ -37,74 +41,124 @@ std::vector<Piece> flatten(const FittedChain& fitted) {
             n = std::clamp(static_cast<int>(std::ceil(std::sqrt(bend / (4.0 * 0.02)))), 1, 64);
         }
         for (int k = 0; k < n; ++k)
-            pieces.push_back({point_at(e, double(k) / n), point_at(e, double(k + 1) / n), false, false});
+            pieces.push_back({point_at(e, double(k) / n), point_at(e, double(k + 1) / n), false, false, chain});
     }
-    if (!fitted.chain.closed && !pieces.empty()) {
-        pieces.front().first = true;
+    if (!fitted.chain.closed && pieces.size() > before) {
+        pieces[before].first = true;
         pieces.back().last = true;
     }
-    return pieces;
 }
 
-void claim_piece(std::vector<Owner>& owners, const Lattice& lattice, const Piece& piece, std::uint32_t chain,
-                 double reach) {
+// Squares of kCell texels, and the pieces that may be the nearest to one of their texels.
+constexpr int kCell = 16;
+
+struct Candidate {
+    const Piece* piece;
+    Vec2 shift;       // of the piece's image that is near
+    double distance;  // of the cell's centre from it
+};
+
+double distance_to(const Piece& piece, Vec2 p) {
+    const Vec2 d = piece.b - piece.a;
+    const double t = std::clamp(dot(p - piece.a, d) / dot(d, d), 0.0, 1.0);
+    return length(piece.a + d * t - p);
+}
+
+class Cells {
+  public:
+    Cells(const Lattice& lattice, double reach)
+        : lattice_(lattice), reach_(reach), columns_((lattice.width + kCell - 1) / kCell),
+          rows_((lattice.height + kCell - 1) / kCell), candidates_(static_cast<std::size_t>(columns_) * rows_) {}
+
+    int rows() const { return rows_; }
+    int columns() const { return columns_; }
+    const std::vector<Candidate>& at(int column, int row) const { return candidates_[static_cast<std::size_t>(row) * columns_ + column]; }
+
+    void add(const Piece& piece) {
+        if (piece.a == piece.b) return;
+        const Vec2 low{std::min(piece.a.x, piece.b.x) - reach_, std::min(piece.a.y, piece.b.y) - reach_};
+        const Vec2 high{std::max(piece.a.x, piece.b.x) + reach_, std::max(piece.a.y, piece.b.y) + reach_};
+        const int w = lattice_.width, h = lattice_.height;
+        const auto first_tile = [&](double v, int n) { return lattice_.wrap ? static_cast<int>(std::floor(v / n)) : 0; };
+        for (int ty = first_tile(low.y, h); ty <= first_tile(high.y, h); ++ty)
+            for (int tx = first_tile(low.x, w); tx <= first_tile(high.x, w); ++tx)
+                add_image(piece, {-double(tx) * w, -double(ty) * h}, low, high);
+    }
+    // A piece farther from the cell's centre than the nearest one by more than the cell's width is nowhere the nearest.
+    void settle() {
+        for_each_piece(candidates_.size(), lattice_.threads, [&](std::size_t cell) {
+            double nearest = reach_ + kRadius;
+            for (const Candidate& c : candidates_[cell]) nearest = std::min(nearest, c.distance);
+            std::erase_if(candidates_[cell], [&](const Candidate& c) { return c.distance > nearest + 2.0 * kRadius + 1e-6; });
+        });
+    }
+
+  private:
+    static constexpr double kRadius = 0.7072 * kCell;
+
+    void add_image(const Piece& piece, Vec2 shift, Vec2 low, Vec2 high) {
+        const auto cell = [](double v, int n) { return std::clamp(static_cast<int>(std::floor(v / kCell)), 0, n - 1); };
+        for (int y = cell(low.y + shift.y, rows_); y <= cell(high.y + shift.y, rows_); ++y)
+            for (int x = cell(low.x + shift.x, columns_); x <= cell(high.x + shift.x, columns_); ++x) {
+                const Vec2 centre{(x + 0.5) * kCell, (y + 0.5) * kCell};
+                const double distance = distance_to(piece, centre - shift);
+                if (distance < reach_ + kRadius)
+                    candidates_[static_cast<std::size_t>(y) * columns_ + x].push_back({&piece, shift, distance});
+            }
+    }
+
+    const Lattice& lattice_;
+    double reach_;
+    int columns_, rows_;
+    std::vector<std::vector<Candidate>> candidates_;
+};
+
+// The texels [x0, x1) of row y that are nearer to the piece than to what they belong to become its own.
+void claim_row(Owner* owners, const Candidate& candidate, int x0, int x1, int y, double reach) {
+    const Piece& piece = *candidate.piece;
     const Vec2 d = piece.b - piece.a;
     const double l = length(d);
-    if (l == 0.0) return;
-    const Vec2 t = d * (1.0 / l), n = normal_of(t);
-    const int y0 = static_cast<int>(std::floor(std::min(piece.a.y, piece.b.y) - reach));
-    const int y1 = static_cast<int>(std::ceil(std::max(piece.a.y, piece.b.y) + reach));
-    for (int y = y0; y <= y1; ++y) {
-        // Columns of this row within reach of the piece: its box would be wasteful for long diagonals.
-        double low = 1e300, high = -1e300;
-        const double ya = y + 0.5 - reach, yb = y + 0.5 + reach;
-        for (const double s : {0.0, 1.0}) {
-            const Vec2 p = piece.a + d * s;
-            if (p.y >= ya && p.y <= yb) {
-                low = std::min(low, p.x);
-                high = std::max(high, p.x);
-            }
-        }
-        if (d.y != 0.0)
-            for (const double edge : {ya, yb}) {
-                const double s = (edge - piece.a.y) / d.y;
-                if (s < 0.0 || s > 1.0) continue;
-                low = std::min(low, piece.a.x + d.x * s);
-                high = std::max(high, piece.a.x + d.x * s);
-            }
-        if (low > high) continue;
-        const int x0 = static_cast<int>(std::floor(low - reach)), x1 = static_cast<int>(std::ceil(high + reach));
-        for (int x = x0; x <= x1; ++x) {
-            const int i = lattice.index(x, y);
-            if (i < 0) continue;
-            const Vec2 q = Vec2{x + 0.5, y + 0.5} - piece.a;
-            const double along = dot(q, t), across = dot(q, n);
-            const double past = along < 0.0 ? -along : along > l ? along - l : 0.0;
-            const double square = past * past + across * across;
-            Owner& owner = owners[i];
-            const double limit = std::min(reach, static_cast<double>(owner.distance));
-            if (square >= limit * limit) continue;
-            const double distance = std::sqrt(square);
-            owner.distance = static_cast<float>(distance);
-            owner.chain = chain;
-            owner.offset = static_cast<float>(past > 0.0 ? (across < 0.0 ? -distance : distance) : across);
-            owner.beyond = past > 0.25 && ((along < 0.0 && piece.first) || (along > l && piece.last));
-        }
+    const Vec2 t = d * (1.0 / l), n = normal_of(t), start = piece.a + candidate.shift;
+    for (int x = x0; x < x1; ++x) {
+        const Vec2 q = Vec2{x + 0.5, y + 0.5} - start;
+        const double along = dot(q, t), across = dot(q, n);
+        const double past = along < 0.0 ? -along : along > l ? along - l : 0.0;
+        const double square = past * past + across * across;
+        Owner& owner = owners[x];
+        const double limit = std::min(reach, static_cast<double>(owner.distance()));
+        if (square >= limit * limit) continue;
+        const double distance = std::sqrt(square);
+        owner.chain = piece.chain;
+        owner.offset = static_cast<float>(past > 0.0 ? (across < 0.0 ? -distance : distance) : across);
+        owner.beyond = past > 0.25 && ((along < 0.0 && piece.first) || (along > l && piece.last));
     }
 }
 
 std::vector<Owner> find_owners(const std::vector<FittedChain>& chains, const Lattice& lattice, double reach) {
+    std::vector<Piece> pieces;
+    for (std::size_t c = 0; c < chains.size(); ++c) add_pieces(chains[c], static_cast<std::uint32_t>(c), pieces);
+    Cells cells(lattice, reach);
+    for (const Piece& piece : pieces) cells.add(piece);
+    cells.settle();
     std::vector<Owner> owners(static_cast<std::size_t>(lattice.size()));
-    for (std::size_t c = 0; c < chains.size(); ++c)
-        for (const Piece& piece : flatten(chains[c]))
-            claim_piece(owners, lattice, piece, static_cast<std::uint32_t>(c), reach);
+    for_each_piece(static_cast<std::size_t>(cells.rows()), lattice.threads, [&](std::size_t row) {
+        const int y0 = static_cast<int>(row) * kCell, y1 = std::min(lattice.height, y0 + kCell);
+        for (int column = 0; column < cells.columns(); ++column)
+            for (const Candidate& candidate : cells.at(column, static_cast<int>(row)))
+                for (int y = y0; y < y1; ++y)
+                    claim_row(&owners[static_cast<std::size_t>(y) * lattice.width], candidate, column * kCell,
+                              std::min(lattice.width, (column + 1) * kCell), y, reach);
+    });
     return owners;
 }
 
 // Mean of the middle 60 %: texels of crossing lines and specks do not count.
 double trimmed_mean(float* first, float* last) {
-    std::sort(first, last);
     const std::ptrdiff_t n = last - first, cut = n / 5;
+    if (cut > 0) {
+        std::nth_element(first, first + cut, last);
+        std::nth_element(first + cut, last - cut, last);
+    }
     double sum = 0.0;
     for (const float* v = first + cut; v != last - cut; ++v) sum += *v;
     return sum / static_cast<double>(n - 2 * cut);
@@ -116,12 +170,12 @@ void settle_levels(Regions& regions, const Image& map, const std::vector<Owner>&
     std::vector<float> furthest(count, 0.0f);
     for (std::size_t i = 0; i < owners.size(); ++i) {
         float& f = furthest[regions.at(i)];
-        f = std::max(f, std::min(owners[i].distance, static_cast<float>(reach)));
+        f = std::max(f, std::min(owners[i].distance(), static_cast<float>(reach)));
     }
     std::vector<std::vector<float>> values(count);
     for (std::size_t i = 0; i < owners.size(); ++i) {
         const std::uint32_t r = regions.at(i);
-        if (owners[i].distance >= 0.6f * furthest[r]) values[r].push_back(map.texels[i]);
+        if (owners[i].distance() >= 0.6f * furthest[r]) values[r].push_back(map.texels[i]);
     }
     for (std::size_t r = 0; r < count; ++r)
         if (!values[r].empty())
