@@ -196,7 +196,7 @@ Result<Candidate> trace_within(const HeightMap& detail, const HeightMap& map, co
 // bevel shows when its paths are drawn. `map` becomes what was traced.
 Result<Candidate> trace_best(HeightMap& map, const ConvertOptions& options, std::size_t budget,
                              const Progress& progress, StageClock& clock) {
-    constexpr double kLeastDeviation = 0.01, kMustGain = 0.002;
+    constexpr double kLeastDeviation = 0.004, kMustGain = 0.002;
     auto candidate = trace_within(map, map, options, budget, progress, clock);
     if (!candidate) return candidate;
     if (!clock.begin("vectorize")) return stopped();

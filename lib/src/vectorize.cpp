@@ -102,6 +102,8 @@ void find_features(const Image& source, Traced& traced) {
         tie_lines(ridges, restored_response(map, erased_ridges, wide, ChainKind::ridge, radius, noise), wide);
     traced.lines = std::move(grooves);
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
+    for (const ChainKind kind : {ChainKind::groove, ChainKind::ridge})
+        for (Chain& spot : trace_spots(map, wide, kind, radius, noise, energy)) traced.lines.push_back(std::move(spot));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
     traced.flattened = crop_margin(map, margin, lattice);
     const std::vector<std::uint8_t> flat = find_flat(traced.flattened, lattice, noise);
@@ -194,6 +196,7 @@ Path make_path(const FittedChain& fitted, const Units& units, const Regions& reg
     Path path;
     path.closed = fitted.chain.closed;
     path.profile = fitted.profile;
+    if (fitted.chain.spot == Spot::round) path.start_cap = path.end_cap = CapKind::round;
     for (Element e : fitted.elements) {
         e.p0 = units.point(e.p0);
         e.p1 = units.point(e.p1);
@@ -278,6 +281,7 @@ Wrap choose_wrap(const Image& map, WrapChoice choice, int threads) {
 ProfileOptions profile_options(const Traced& traced) {
     ProfileOptions options;
     options.noise = traced.noise;
+    options.least_gain = 1e-5 * traced.energy;
     options.reach = std::clamp(0.06 * std::min(traced.lattice.width, traced.lattice.height), 8.0, 64.0);
     options.most_profiles = static_cast<std::size_t>(std::clamp(traced.lattice.size() / 4096, 16, 400));
     return options;

@@ -3,6 +3,7 @@
 #include "vectorize_hat.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "parallel.hpp"
 
@@ -128,6 +129,10 @@ bool close_tile(const Image& map, const Lattice& lattice, ChainKind kind, int ra
 float sign_of(ChainKind kind) { return kind == ChainKind::groove ? 1.0f : -1.0f; }
 
 }  // namespace
+
+double least_response(double noise) { return std::max(4.0 * noise, 0.012); }
+
+int square_radius(double radius) { return std::max(2, static_cast<int>(std::lround(radius))); }
 
 Image hat_response(const Image& map, const Lattice& lattice, ChainKind kind, int radius, double least) {
     Image out(map.width, map.height);

@@ -5,6 +5,9 @@
 
 namespace burin::vectorizing {
 
+double least_response(double noise);  // of a hat: what the grain does not show
+int square_radius(double radius);     // texels to each side of a square
+
 // Depth of each texel below the closing of the map with a square of 2 radius + 1 texels (grooves), or height above its
 // opening (ridges). Where the map is flat within `least` all around, it is 0.
 Image hat_response(const Image& map, const Lattice& lattice, ChainKind kind, int radius, double least);

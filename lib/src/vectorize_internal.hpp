@@ -67,6 +67,9 @@ inline float sample(const Image& image, const Lattice& lattice, Vec2 p) {
 
 enum class ChainKind : std::uint8_t { groove, ridge, step };
 
+// Dots, bolts, short slots: a short line whose ends carry its profile round them, as an arc or square (the hip).
+enum class Spot : std::uint8_t { no, round, square };
+
 // What the end of a chain is tied to; the fit pins such ends.
 enum class EndTie : std::uint8_t { free, node, chain, border };
 
@@ -75,6 +78,7 @@ struct Chain {
     ChainKind kind = ChainKind::groove;
     std::vector<Vec2> points;
     bool closed = false;
+    Spot spot = Spot::no;
     double half_width = 0.0;  // of a line, at half its height
     double contrast = 0.0;    // height of the line or of the step
     EndTie start_tie = EndTie::free;
@@ -164,6 +168,11 @@ double line_energy(const Image& response, double noise);
 // `erased`: the lines of this kind erased so far, which are put back where lines are measured, and those erased now.
 std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const Lattice& lattice, ChainKind kind,
                                const LineScale& scale, double noise, double energy);
+
+// Grooves or ridges too short for a line and too small for a plateau, in what is left of the map without lines; taken
+// out of it. Every spot explains more than a little of `energy`.
+std::vector<Chain> trace_spots(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
+                               double energy);
 
 // Joins and ties the ends of all lines of one kind by the response of the map that has them in it: the two below.
 void tie_lines(std::vector<Chain>& chains, const Image& response, const Lattice& lattice);

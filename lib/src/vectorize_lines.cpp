@@ -236,10 +236,6 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
 
 float sign_of(ChainKind kind) { return kind == ChainKind::groove ? 1.0f : -1.0f; }
 
-double least_response(double noise) { return std::max(4.0 * noise, 0.012); }
-
-int square_radius(double radius) { return std::max(2, static_cast<int>(std::lround(radius))); }
-
 // A chain whose points were mostly dropped as unsteady was bridged over noise.
 bool is_supported(const Chain& chain) {
     double bridged = 0.0;

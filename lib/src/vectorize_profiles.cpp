@@ -1,5 +1,7 @@
 // Which chain every texel belongs to, and the mean section of each chain.
 #include "vectorize_profiles.hpp"
+#include "vectorize_owners.hpp"
+#include "vectorize_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,143 +16,6 @@
 
 namespace burin::vectorizing {
 namespace {
-
-constexpr std::uint32_t kNobody = 0x7fffffffu;
-
-// The nearest chain of a texel, and the signed offset from it, whose magnitude is the distance.
-struct Owner {
-    float offset = 1e9f;
-    std::uint32_t chain : 31 = kNobody;
-    std::uint32_t beyond : 1 = 0;  // past an open end, where the section does not hold
-
-    float distance() const { return std::fabs(offset); }
-};
-
-struct Piece {
-    Vec2 a, b;
-    bool first = false, last = false;  // at an open end of the chain
-    std::uint32_t chain = 0;
-};
-
-void add_pieces(const FittedChain& fitted, std::uint32_t chain, std::vector<Piece>& pieces) {
-    const std::size_t before = pieces.size();
-    for (const Element& e : fitted.elements) {
-        int n = 1;
-        if (e.kind == ElementKind::quadratic) {
-            const double bend = length(e.p0 - 2.0 * e.p1 + e.p2);
-            n = std::clamp(static_cast<int>(std::ceil(std::sqrt(bend / (4.0 * 0.02)))), 1, 64);
-        }
-        for (int k = 0; k < n; ++k)
-            pieces.push_back({point_at(e, double(k) / n), point_at(e, double(k + 1) / n), false, false, chain});
-    }
-    if (!fitted.chain.closed && pieces.size() > before) {
-        pieces[before].first = true;
-        pieces.back().last = true;
-    }
-}
-
-// Squares of kCell texels, and the pieces that may be the nearest to one of their texels.
-constexpr int kCell = 16;
-
-struct Candidate {
-    const Piece* piece;
-    Vec2 shift;       // of the piece's image that is near
-    double distance;  // of the cell's centre from it
-};
-
-double distance_to(const Piece& piece, Vec2 p) {
-    const Vec2 d = piece.b - piece.a;
-    const double t = std::clamp(dot(p - piece.a, d) / dot(d, d), 0.0, 1.0);
-    return length(piece.a + d * t - p);
-}
-
-class Cells {
-  public:
-    Cells(const Lattice& lattice, double reach)
-        : lattice_(lattice), reach_(reach), columns_((lattice.width + kCell - 1) / kCell),
-          rows_((lattice.height + kCell - 1) / kCell), candidates_(static_cast<std::size_t>(columns_) * rows_) {}
-
-    int rows() const { return rows_; }
-    int columns() const { return columns_; }
-    const std::vector<Candidate>& at(int column, int row) const { return candidates_[static_cast<std::size_t>(row) * columns_ + column]; }
-
-    void add(const Piece& piece) {
-        if (piece.a == piece.b) return;
-        const Vec2 low{std::min(piece.a.x, piece.b.x) - reach_, std::min(piece.a.y, piece.b.y) - reach_};
-        const Vec2 high{std::max(piece.a.x, piece.b.x) + reach_, std::max(piece.a.y, piece.b.y) + reach_};
-        const int w = lattice_.width, h = lattice_.height;
-        const auto first_tile = [&](double v, int n) { return lattice_.wrap ? static_cast<int>(std::floor(v / n)) : 0; };
-        for (int ty = first_tile(low.y, h); ty <= first_tile(high.y, h); ++ty)
-            for (int tx = first_tile(low.x, w); tx <= first_tile(high.x, w); ++tx)
-                add_image(piece, {-double(tx) * w, -double(ty) * h}, low, high);
-    }
-    // A piece farther from the cell's centre than the nearest one by more than the cell's width is nowhere the nearest.
-    void settle() {
-        for_each_piece(candidates_.size(), lattice_.threads, [&](std::size_t cell) {
-            double nearest = reach_ + kRadius;
-            for (const Candidate& c : candidates_[cell]) nearest = std::min(nearest, c.distance);
-            std::erase_if(candidates_[cell], [&](const Candidate& c) { return c.distance > nearest + 2.0 * kRadius + 1e-6; });
-        });
-    }
-
-  private:
-    static constexpr double kRadius = 0.7072 * kCell;
-
-    void add_image(const Piece& piece, Vec2 shift, Vec2 low, Vec2 high) {
-        const auto cell = [](double v, int n) { return std::clamp(static_cast<int>(std::floor(v / kCell)), 0, n - 1); };
-        for (int y = cell(low.y + shift.y, rows_); y <= cell(high.y + shift.y, rows_); ++y)
-            for (int x = cell(low.x + shift.x, columns_); x <= cell(high.x + shift.x, columns_); ++x) {
-                const Vec2 centre{(x + 0.5) * kCell, (y + 0.5) * kCell};
-                const double distance = distance_to(piece, centre - shift);
-                if (distance < reach_ + kRadius)
-                    candidates_[static_cast<std::size_t>(y) * columns_ + x].push_back({&piece, shift, distance});
-            }
-    }
-
-    const Lattice& lattice_;
-    double reach_;
-    int columns_, rows_;
-    std::vector<std::vector<Candidate>> candidates_;
-};
-
-// The texels [x0, x1) of row y that are nearer to the piece than to what they belong to become its own.
-void claim_row(Owner* owners, const Candidate& candidate, int x0, int x1, int y, double reach) {
-    const Piece& piece = *candidate.piece;
-    const Vec2 d = piece.b - piece.a;
-    const double l = length(d);
-    const Vec2 t = d * (1.0 / l), n = normal_of(t), start = piece.a + candidate.shift;
-    for (int x = x0; x < x1; ++x) {
-        const Vec2 q = Vec2{x + 0.5, y + 0.5} - start;
-        const double along = dot(q, t), across = dot(q, n);
-        const double past = along < 0.0 ? -along : along > l ? along - l : 0.0;
-        const double square = past * past + across * across;
-        Owner& owner = owners[x];
-        const double limit = std::min(reach, static_cast<double>(owner.distance()));
-        if (square >= limit * limit) continue;
-        const double distance = std::sqrt(square);
-        owner.chain = piece.chain;
-        owner.offset = static_cast<float>(past > 0.0 ? (across < 0.0 ? -distance : distance) : across);
-        owner.beyond = past > 0.25 && ((along < 0.0 && piece.first) || (along > l && piece.last));
-    }
-}
-
-std::vector<Owner> find_owners(const std::vector<FittedChain>& chains, const Lattice& lattice, double reach) {
-    std::vector<Piece> pieces;
-    for (std::size_t c = 0; c < chains.size(); ++c) add_pieces(chains[c], static_cast<std::uint32_t>(c), pieces);
-    Cells cells(lattice, reach);
-    for (const Piece& piece : pieces) cells.add(piece);
-    cells.settle();
-    std::vector<Owner> owners(static_cast<std::size_t>(lattice.size()));
-    for_each_piece(static_cast<std::size_t>(cells.rows()), lattice.threads, [&](std::size_t row) {
-        const int y0 = static_cast<int>(row) * kCell, y1 = std::min(lattice.height, y0 + kCell);
-        for (int column = 0; column < cells.columns(); ++column)
-            for (const Candidate& candidate : cells.at(column, static_cast<int>(row)))
-                for (int y = y0; y < y1; ++y)
-                    claim_row(&owners[static_cast<std::size_t>(y) * lattice.width], candidate, column * kCell,
-                              std::min(lattice.width, (column + 1) * kCell), y, reach);
-    });
-    return owners;
-}
 
 // Mean of the middle 60 %: texels of crossing lines and specks do not count.
 double trimmed_mean(float* first, float* last) {
@@ -196,7 +61,13 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
         const int k = static_cast<int>(std::lround(owner.offset / kSectionStep)) + half;
         return owner.chain * bins + static_cast<std::size_t>(std::clamp(k, 0, 2 * half));
     };
-    const auto counts = [](const Owner& owner) { return owner.chain != kNobody && !owner.beyond; };
+    // Around a spot lies what it stands on.
+    constexpr double kRim = 2.5;  // texels
+    const auto counts = [&](const Owner& owner) {
+        if (owner.chain == kNoChain || owner.beyond) return false;
+        const Chain& chain = chains[owner.chain].chain;
+        return chain.spot == Spot::no || std::fabs(owner.offset) < chain.half_width + kRim;
+    };
     for (const Owner& owner : owners)
         if (counts(owner)) ++first[bin_of(owner) + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
@@ -363,7 +234,7 @@ double value_at(const Profile& profile, double b, bool& inside) {
 void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map,
                    const std::vector<Owner>& owners, const Regions& regions) {
     for (std::size_t i = 0; i < owners.size(); ++i) {
-        if (owners[i].chain == kNobody) continue;
+        if (owners[i].chain == kNoChain) continue;
         FittedChain& fitted = chains[owners[i].chain];
         if (fitted.chain.kind == ChainKind::step) continue;
         bool inside = false;
@@ -398,13 +269,15 @@ ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, 
         std::vector<std::uint8_t> reversed;
         clusters = cluster_sections(chains, sections, regions, closeness, options.noise, reversed);
         for (Owner& owner : owners)
-            if (owner.chain != kNobody && reversed[owner.chain]) owner.offset = -owner.offset;
+            if (owner.chain != kNoChain && reversed[owner.chain]) owner.offset = -owner.offset;
         if (clusters.size() <= options.most_profiles) break;
     }
     for (const Cluster& cluster : clusters)
         set.profiles.push_back(fit_profile(cluster.section.height, cluster.section.weight, cluster.step, options.noise));
     for (FittedChain& fitted : chains) fitted.gain = 0.0;
     measure_gains(chains, set, map, owners, regions);
+    measure_scales(chains, set, map, lattice, regions, owners,
+                   {options.reach, options.noise, options.least_gain});
     return set;
 }
 
