@@ -193,8 +193,8 @@ Result<Candidate> trace_within(const HeightMap& detail, const HeightMap& map, co
 }
 
 // The map as it is, or without its soft ground where that explains more: whether a ramp is ground or the side of a wide
-// bevel shows when its paths are drawn. `map` becomes what was traced.
-Result<Candidate> trace_best(HeightMap& map, const ConvertOptions& options, std::size_t budget,
+// bevel shows when its paths are drawn. `detail` becomes what was traced, where that is not the map itself.
+Result<Candidate> trace_best(const HeightMap& map, std::optional<HeightMap>& detail, const ConvertOptions& options, std::size_t budget,
                              const Progress& progress, StageClock& clock) {
     constexpr double kLeastDeviation = 0.004, kMustGain = 0.002;
     auto candidate = trace_within(map, map, options, budget, progress, clock);
@@ -206,7 +206,7 @@ Result<Candidate> trace_best(HeightMap& map, const ConvertOptions& options, std:
     auto other = trace_within(separated->detail, map, options, budget, progress, clock);
     if (!other) return other;
     if (other->stats.explained < candidate->stats.explained + kMustGain) return candidate;
-    map = std::move(separated->detail);
+    detail = std::move(separated->detail);
     return other;
 }
 
@@ -268,11 +268,11 @@ Result<Converted> convert_map(const HeightMap& map, const Model& model, const Co
     StageClock clock(progress, seconds);
     const std::size_t budget = options.max_texture_bytes > 0 ? options.max_texture_bytes
                                                              : default_budget(map.image.texels.size());
-    HeightMap traced = map;
-    auto candidate = trace_best(traced, options, budget, progress, clock);
+    std::optional<HeightMap> detail;
+    auto candidate = trace_best(map, detail, options, budget, progress, clock);
     const double traced_explained = candidate ? candidate->stats.explained : 0.0;
     if (candidate) candidate = without_accidents(std::move(*candidate), map, options, budget, clock);
-    if (candidate) candidate = refine_candidate(std::move(*candidate), traced, map, options, budget, clock);
+    if (candidate) candidate = refine_candidate(std::move(*candidate), detail ? *detail : map, map, options, budget, clock);
     if (!candidate) return candidate.error();
 
     if (!clock.begin("bake")) return stopped();
