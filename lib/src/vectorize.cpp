@@ -105,10 +105,14 @@ void find_features(const Image& source, Traced& traced) {
     for (const ChainKind kind : {ChainKind::groove, ChainKind::ridge})
         for (Chain& spot : trace_spots(map, wide, kind, radius, noise, energy)) traced.lines.push_back(std::move(spot));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
-    traced.flattened = crop_margin(map, margin, lattice);
-    const std::vector<std::uint8_t> flat = find_flat(traced.flattened, lattice, noise);
-    traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy, flat);
-    traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
+    const Image flattened = margin > 0 ? crop_margin(map, margin, lattice) : std::move(map);
+    map = {};
+    for (int i = 0; i < lattice.size(); ++i)
+        if (flattened.texels[i] != source.texels[i]) traced.changed.push_back({i, flattened.texels[i]});
+    traced.changed.shrink_to_fit();
+    const std::vector<std::uint8_t> flat = find_flat(flattened, lattice, noise);
+    traced.regions = segment_regions(flattened, lattice, noise, kLeastRegionShare * energy, flat);
+    traced.steps = trace_steps(flattened, {}, lattice, traced.regions);
 }
 
 std::size_t count_elements(const std::vector<FittedChain>& chains) {
@@ -146,7 +150,7 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
         const std::size_t before = regions.level.size();
         merge_regions(result.noise, share * energy, regions);
         if (regions.level.size() == before) continue;
-        fewer_steps = trace_steps(traced.flattened, lattice, regions);
+        fewer_steps = trace_steps(map, traced.changed, lattice, regions);
         steps = count_lines(fewer_steps, result.tolerance);
     }
     const bool merged = regions.level.size() < traced.regions.level.size();

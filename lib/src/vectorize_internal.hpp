@@ -116,13 +116,20 @@ struct Regions {
     std::uint32_t at(std::size_t texel) const { return region_of[(*part)[texel]]; }
 };
 
+// Texels of a map that have other values, by rising index.
+struct ChangedTexel {
+    int texel = 0;
+    float value = 0.0f;
+};
+using Changed = std::vector<ChangedTexel>;
+
 // All that was found in a map.
 struct Traced {
     Lattice lattice;
     double noise = 0.0;   // see Vectorized
     double energy = 0.0;
     std::vector<Chain> lines, steps;
-    Image flattened;  // the map without the lines
+    Changed changed;  // what the map without its lines has otherwise than the map
     Regions regions;
 };
 
@@ -202,7 +209,7 @@ void measure_regions(const Image& map, const Lattice& lattice, const std::vector
                      const std::vector<std::uint32_t>& label, Regions& regions);
 void merge_regions(double noise, double least_energy, Regions& regions);
 
-// The step contours between regions.
-std::vector<Chain> trace_steps(const Image& map, const Lattice& lattice, const Regions& regions);
+// The step contours between regions of the map, but for `changed`.
+std::vector<Chain> trace_steps(const Image& map, const Changed& changed, const Lattice& lattice, const Regions& regions);
 
 }  // namespace burin::vectorizing
