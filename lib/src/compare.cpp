@@ -7,10 +7,15 @@
 #include <burin/compare.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
+
+#include "parallel.hpp"
 
 namespace burin {
 
@@ -103,7 +108,7 @@ class WideBlur {
   public:
     // `texel(x, y)` gives the map's values.
     template <typename Texel>
-    WideBlur(int width, int height, Wrap wrap, const Texel& texel);
+    WideBlur(int width, int height, Wrap wrap, int threads, const Texel& texel);
 
     // Row y of the blurred map into out[0 .. width).
     void row(int y, std::vector<double>& out) const;
@@ -121,29 +126,30 @@ class WideBlur {
 };
 
 template <typename Texel>
-WideBlur::WideBlur(int width, int height, Wrap wrap, const Texel& texel) {
+WideBlur::WideBlur(int width, int height, Wrap wrap, int threads, const Texel& texel) {
     const double sigma = std::min(width, height) * kSigmaShare;
     across_ = make_axis(width, sigma, wrap == Wrap::repeat);
     down_ = make_axis(height, sigma, wrap == Wrap::repeat);
     const Shares columns = shares_of(across_), lines = shares_of(down_);
     const std::size_t n = static_cast<std::size_t>(across_.blocks);
-    blocks_.assign(n * static_cast<std::size_t>(down_.blocks) + n + 1, 0.0);
-    std::vector<double> sums(n + 1);
-    for (int y = 0; y < height; ++y) {
-        std::fill(sums.begin(), sums.end(), 0.0);
-        for (int x = 0; x < width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(x);
-            const double v = texel(x, y);
-            const double first = v * columns.share[i];
-            sums[static_cast<std::size_t>(columns.block[i])] += first;
-            sums[static_cast<std::size_t>(columns.block[i]) + 1] += v - first;
+    std::vector<double> sums((n + 1) * static_cast<std::size_t>(height), 0.0);  // of every row in the columns of blocks
+    for_each_band(height, threads, [&](const Band& band) {
+        for (int y = band.begin; y < band.end; ++y) {
+            double* row = &sums[(n + 1) * static_cast<std::size_t>(y)];
+            for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+                const double v = texel(static_cast<int>(x), y), first = v * columns.share[x];
+                row[columns.block[x]] += first;
+                row[columns.block[x] + 1] += v - first;
+            }
         }
-        const double share = lines.share[static_cast<std::size_t>(y)];
-        double* block =
-            blocks_.data() + static_cast<std::size_t>(lines.block[static_cast<std::size_t>(y)]) * n;
+    });
+    blocks_.assign(n * static_cast<std::size_t>(down_.blocks) + n + 1, 0.0);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+        double* block = blocks_.data() + static_cast<std::size_t>(lines.block[y]) * n;
         for (std::size_t b = 0; b < n; ++b) {
-            block[b] += sums[b] * share;
-            block[b + n] += sums[b] * (1.0 - share);
+            const double sum = sums[(n + 1) * y + b];
+            block[b] += sum * lines.share[y];
+            block[b + n] += sum * (1.0 - lines.share[y]);
         }
     }
     const double area = across_.per_block() * down_.per_block();
@@ -179,78 +185,172 @@ void WideBlur::row(int y, std::vector<double>& out) const {
     }
 }
 
-// Variance of a map less its wide Gaussian; the absolute values of that difference go to `absolute`, if
-// given.
-template <typename Texel>
-double high_pass_variance(int width, int height, Wrap wrap, const Texel& texel,
-                          std::vector<float>* absolute = nullptr) {
-    const WideBlur blur(width, height, wrap, texel);
-    std::vector<double> smooth;
-    double sum = 0.0, squares = 0.0;
-    for (int y = 0; y < height; ++y) {
-        blur.row(y, smooth);
-        double row_sum = 0.0, row_squares = 0.0;
-        for (int x = 0; x < width; ++x) {
-            const double v = texel(x, y) - smooth[static_cast<std::size_t>(x)];
-            row_sum += v;
-            row_squares += v * v;
-            if (absolute) absolute->push_back(static_cast<float>(std::abs(v)));
+// The map is summed up in slices, whatever the number of threads.
+constexpr int kSlices = 16;
+
+// Finds a value of some rank without keeping all: first values are counted by their leading bits, then those are
+// kept that share them with the one looked for.
+class RankFinder {
+  public:
+    // `above`: how many values may be greater.
+    explicit RankFinder(std::size_t above) : above_(above), count_(kSlices), kept_(kSlices) {}
+
+    void count(std::size_t slice, float value) { ++counts_of(slice)[bin_of(value)]; }
+    void end_counting() {
+        std::size_t greater = 0;
+        for (bin_ = kBins; bin_-- > 0;) {
+            std::size_t here = 0;
+            for (const std::vector<std::uint32_t>& counts : count_) here += counts.empty() ? 0 : counts[bin_];
+            if (greater + here > above_) break;
+            greater += here;
         }
-        sum += row_sum;
-        squares += row_squares;
+        above_ -= greater;
     }
-    const double n = static_cast<double>(width) * height;
-    return std::max(0.0, squares / n - (sum / n) * (sum / n));
+    void keep(std::size_t slice, float value) {
+        if (bin_of(value) == bin_) kept_[slice].push_back(value);
+    }
+    double value() {
+        std::vector<float> all;
+        for (const std::vector<float>& some : kept_) all.insert(all.end(), some.begin(), some.end());
+        const auto nth = all.begin() + static_cast<std::ptrdiff_t>(all.size() - 1 - above_);
+        std::nth_element(all.begin(), nth, all.end());
+        return static_cast<double>(*nth);
+    }
+
+  private:
+    static constexpr std::size_t kBins = std::size_t{1} << 16;
+    // Floats that are not negative sort as their bits do.
+    static std::size_t bin_of(float value) { return std::bit_cast<std::uint32_t>(value) >> 15; }
+    std::vector<std::uint32_t>& counts_of(std::size_t slice) {
+        if (count_[slice].empty()) count_[slice].assign(kBins, 0);
+        return count_[slice];
+    }
+
+    std::size_t above_, bin_ = 0;
+    std::vector<std::vector<std::uint32_t>> count_;  // per slice
+    std::vector<std::vector<float>> kept_;
+};
+
+// Calls visit(slice, x, y, value) for the texels of a map less its wide Gaussian.
+template <typename Texel, typename Visit>
+void for_each_detail(const WideBlur& blur, int width, int height, int threads, const Texel& texel, const Visit& visit) {
+    for_each_band(height, kSlices, threads, [&](const Band& band) {
+        std::vector<double> smooth;
+        for (int y = band.begin; y < band.end; ++y) {
+            blur.row(y, smooth);
+            for (int x = 0; x < width; ++x) visit(band.index, x, y, texel(x, y) - smooth[static_cast<std::size_t>(x)]);
+        }
+    });
 }
 
-// At most 1 in 1000 is greater. Reorders the values.
-double p999_of(std::vector<float>& values) {
-    const std::size_t n = values.size();
-    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n - 1 - n / 1000);
-    std::nth_element(values.begin(), nth, values.end());
-    return static_cast<double>(*nth);
+// Sum and sum of squares, by slices.
+class Moments {
+  public:
+    void add(std::size_t slice, double v) {
+        sums_[slice].sum += v;
+        sums_[slice].squares += v * v;
+    }
+    double mean(double n) const { return total().sum / n; }
+    double mean_square(double n) const { return total().squares / n; }
+    double variance(double n) const { return std::max(0.0, mean_square(n) - mean(n) * mean(n)); }
+
+  private:
+    struct alignas(64) Sums {  // one a cache line: threads write to neighbours
+        double sum = 0.0, squares = 0.0;
+    };
+    Sums total() const {
+        Sums all;
+        for (const Sums& s : sums_) all.sum += s.sum, all.squares += s.squares;
+        return all;
+    }
+    std::array<Sums, kSlices> sums_;
+};
+
+// Variance of a map less its wide Gaussian.
+template <typename Texel>
+double high_pass_variance(int width, int height, Wrap wrap, int threads, const Texel& texel) {
+    const WideBlur blur(width, height, wrap, threads, texel);
+    Moments moments;
+    for_each_detail(blur, width, height, threads, texel, [&](std::size_t slice, int, int, double v) { moments.add(slice, v); });
+    return moments.variance(static_cast<double>(width) * height);
 }
 
-// The errors themselves; their 99.9th percentile needs them side by side.
-void point_figures(const Image& a, const Image& b, Comparison& out) {
-    const std::size_t n = a.texels.size();
-    std::vector<float> absolute(n);
-    double sum = 0.0, sum_abs = 0.0, squares = 0.0;
-    std::size_t worst = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const double e = static_cast<double>(a.texels[i]) - static_cast<double>(b.texels[i]);
-        const double size = std::abs(e);
-        absolute[i] = static_cast<float>(size);
-        sum += e;
-        sum_abs += size;
-        squares += e * e;
-        if (size > out.max) out.max = size, worst = i;
-    }
-    out.mean_error = sum / static_cast<double>(n);
-    out.mean_abs = sum_abs / static_cast<double>(n);
-    out.rms = std::sqrt(squares / static_cast<double>(n));
-    out.worst_x = static_cast<int>(worst % static_cast<std::size_t>(a.width));
-    out.worst_y = static_cast<int>(worst / static_cast<std::size_t>(a.width));
-    out.p999 = p999_of(absolute);
+std::size_t rank_of_p999(const Image& map) { return map.texels.size() / 1000; }
+
+// The errors themselves.
+void point_figures(const Image& a, const Image& b, int threads, Comparison& out) {
+    struct alignas(64) Worst {
+        double size = -1.0;
+        std::size_t texel = 0;
+    };
+    Moments errors, sizes;
+    RankFinder rank(rank_of_p999(a));
+    std::array<Worst, kSlices> worst;
+    const auto error_of = [&](std::size_t i) { return static_cast<double>(a.texels[i]) - static_cast<double>(b.texels[i]); };
+    const auto for_each_texel = [&](const auto& visit) {
+        for_each_band(a.height, kSlices, threads, [&](const Band& band) {
+            const std::size_t width = static_cast<std::size_t>(a.width);
+            for (std::size_t i = width * static_cast<std::size_t>(band.begin); i < width * static_cast<std::size_t>(band.end); ++i)
+                visit(band.index, i);
+        });
+    };
+    for_each_texel([&](std::size_t slice, std::size_t i) {
+        const double e = error_of(i), size = std::abs(e);
+        errors.add(slice, e);
+        sizes.add(slice, size);
+        rank.count(slice, static_cast<float>(size));
+        if (size > worst[slice].size) worst[slice] = {size, i};
+    });
+    rank.end_counting();
+    for_each_texel([&](std::size_t slice, std::size_t i) { rank.keep(slice, static_cast<float>(std::abs(error_of(i)))); });
+    const Worst& greatest =
+        *std::max_element(worst.begin(), worst.end(), [](const Worst& p, const Worst& q) { return p.size < q.size; });
+    const double n = static_cast<double>(a.texels.size());
+    out.max = greatest.size;
+    out.mean_error = errors.mean(n);
+    out.mean_abs = sizes.mean(n);
+    out.rms = std::sqrt(errors.mean_square(n));
+    out.worst_x = static_cast<int>(greatest.texel % static_cast<std::size_t>(a.width));
+    out.worst_y = static_cast<int>(greatest.texel / static_cast<std::size_t>(a.width));
+    out.p999 = rank.value();
+}
+
+// The errors less their wide Gaussian.
+template <typename Error>
+void detail_figures(const Image& map, Wrap wrap, int threads, const Error& error, Comparison& out) {
+    const WideBlur blur(map.width, map.height, wrap, threads, error);
+    Moments moments;
+    RankFinder rank(rank_of_p999(map));
+    for_each_detail(blur, map.width, map.height, threads, error, [&](std::size_t slice, int, int, double v) {
+        moments.add(slice, v);
+        rank.count(slice, static_cast<float>(std::abs(v)));
+    });
+    rank.end_counting();
+    for_each_detail(blur, map.width, map.height, threads, error,
+                    [&](std::size_t slice, int, int, double v) { rank.keep(slice, static_cast<float>(std::abs(v))); });
+    out.error_variance = moments.variance(static_cast<double>(map.texels.size()));
+    out.rms_without_smooth = std::sqrt(out.error_variance);
+    out.p999_without_smooth = rank.value();
 }
 
 }  // namespace
 
-Comparison compare_heights(const Image& reconstruction, const Image& input, Wrap wrap) {
+double detail_variance(const Image& map, Wrap wrap, int threads) {
+    assert(!map.texels.empty());
+    return high_pass_variance(map.width, map.height, wrap, threads,
+                              [&](int x, int y) { return static_cast<double>(map.at(x, y)); });
+}
+
+Comparison compare_heights(const Image& reconstruction, const Image& input, Wrap wrap, int threads) {
     assert(reconstruction.width == input.width && reconstruction.height == input.height);
     assert(!input.texels.empty());
     Comparison out;
-    point_figures(reconstruction, input, out);
-    const auto value = [&](int x, int y) { return static_cast<double>(input.at(x, y)); };
+    point_figures(reconstruction, input, threads, out);
     const auto error = [&](int x, int y) {
         return static_cast<double>(input.at(x, y)) - static_cast<double>(reconstruction.at(x, y));
     };
-    out.input_variance = high_pass_variance(input.width, input.height, wrap, value);
-    std::vector<float> absolute;
-    absolute.reserve(input.texels.size());
-    out.error_variance = high_pass_variance(input.width, input.height, wrap, error, &absolute);
-    out.rms_without_smooth = std::sqrt(out.error_variance);
-    out.p999_without_smooth = p999_of(absolute);
+    out.input_variance = detail_variance(input, wrap, threads);
+    detail_figures(input, wrap, threads, error, out);
     // 1e-14: what rounding leaves of a constant map; a map with one texel changed by 1/65535 has more up to
     // 100 Mtexel.
     constexpr double kNothing = 1e-14;
@@ -268,16 +368,11 @@ Comparison compare_heights(const Image& reconstruction, const Image& input, Wrap
 
 Image subtract_smooth(const Image& map, Wrap wrap) {
     assert(!map.texels.empty());
-    const WideBlur blur(map.width, map.height, wrap,
-                        [&](int x, int y) { return static_cast<double>(map.at(x, y)); });
+    const auto value = [&](int x, int y) { return static_cast<double>(map.at(x, y)); };
+    const WideBlur blur(map.width, map.height, wrap, 1, value);
     Image out(map.width, map.height);
-    std::vector<double> smooth;
-    for (int y = 0; y < map.height; ++y) {
-        blur.row(y, smooth);
-        for (int x = 0; x < map.width; ++x)
-            out.at(x, y) =
-                static_cast<float>(static_cast<double>(map.at(x, y)) - smooth[static_cast<std::size_t>(x)]);
-    }
+    for_each_detail(blur, map.width, map.height, 1, value,
+                    [&](std::size_t, int x, int y, double v) { out.at(x, y) = static_cast<float>(v); });
     return out;
 }
 

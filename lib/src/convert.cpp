@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include <burin/compare.hpp>
 #include <burin/reconstruct.hpp>
@@ -85,7 +86,8 @@ Status measure(const HeightMap& map, const PackedTextures& textures, const PathD
                ConvertStats& stats) {
     const auto heights = reconstruct(map, textures, detail, {.threads = threads});
     if (!heights) return heights.error();
-    const Comparison figures = compare_heights(*heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp);
+    const Comparison figures = compare_heights(*heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp,
+                                               threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
     stats.explained = figures.explained;
     stats.path_like = figures.explained >= kPathLikeShare;
     stats.rms = figures.rms;
@@ -146,17 +148,29 @@ struct Candidate {
     std::size_t bytes() const { return stats.grid_bytes + stats.data_bytes; }
 };
 
-Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
-                                   std::size_t budget, StageClock& clock) {
+Result<Candidate> pack_candidate(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
+                                 std::size_t budget, StageClock& clock) {
     Candidate candidate;
     auto packed = pack_pattern(traced.pattern, map, options, budget, clock, candidate.stats);
     if (!packed) return packed.error();
-    if (!clock.begin("measure")) return stopped();
-    const Status measured = measure(map, packed->textures, packed->detail, options.threads, candidate.stats);
-    if (!measured) return measured.error();
     candidate.packed = std::move(*packed);
     candidate.traced = std::move(traced);
     return candidate;
+}
+
+Result<Candidate> measure_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options, StageClock& clock) {
+    if (!clock.begin("measure")) return stopped();
+    const Packed& packed = candidate.packed;
+    const Status measured = measure(map, packed.textures, packed.detail, options.threads, candidate.stats);
+    if (!measured) return measured.error();
+    return candidate;
+}
+
+Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
+                                   std::size_t budget, StageClock& clock) {
+    auto candidate = pack_candidate(std::move(traced), map, options, budget, clock);
+    if (!candidate) return candidate;
+    return measure_candidate(std::move(*candidate), map, options, clock);
 }
 
 VectorizeOptions vectorize_options(const ConvertOptions& options) {
@@ -193,10 +207,11 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
         if (!clock.begin("vectorize")) return stopped();
         auto fitted = fit_traced_map(source.traced, source.detail(), vectorize, progress);
         if (!fitted) return fitted.error();
-        auto candidate = pack_and_measure(std::move(*fitted), source.map, options, budget, clock);
+        auto candidate = pack_candidate(std::move(*fitted), source.map, options, budget, clock);
         if (!candidate) return candidate.error();
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
-        if (candidate->bytes() <= budget || attempt == most_attempts || elements <= fewest) return candidate;
+        if (candidate->bytes() <= budget || attempt == most_attempts || elements <= fewest)
+            return measure_candidate(std::move(*candidate), source.map, options, clock);
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
         const double share = 0.85 * static_cast<double>(budget) / static_cast<double>(candidate->bytes());
         vectorize.most_elements = std::max(fewest, static_cast<int>(most * share));

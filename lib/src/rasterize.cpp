@@ -11,79 +11,10 @@
 #include <cassert>
 #include <thread>
 
-#include "evaluate_prepare.hpp"
+#include "rasterize_internal.hpp"
 
 namespace burin {
-namespace {
-
-using namespace truth;
-using Prepared = Truth::Prepared;
-
-constexpr int kBucket = 8;  // texels per side; smaller ones cost more to fill than they save
-
-// One tile image of an element.
-struct Entry {
-    const PreparedElement* element;
-    Vec2 shift;
-};
-
-// What an element does over a whole texel.
-enum class Cover { absent, plane, mixed };
-struct Plane {
-    double middle = 0;         // height at the texel's centre, corrected so that it is the mean
-    double low = 0, high = 0;  // bounds over the texel
-    bool internal = false;
-};
-
-// Where a row of samples crosses a step path line, and the levels to both sides in x.
-struct RowCrossing {
-    double x, before, after;
-};
-
-class Rasterizer {
-  public:
-    Rasterizer(const ResolvedPattern& pattern, int width, int height, const RasterizeOptions& options);
-    Image run();
-
-  private:
-    int bucket_columns() const { return last_column_ - first_column_ + 1; }
-    Vec2 texel_centre(int x, int y) const { return {(x + 0.5) * texel_.x, (y + 0.5) * texel_.y}; }
-
-    void fill_buckets();
-    void fill_step_rows();
-    bool can_act(const PreparedElement& e, Vec2 p, double radius) const;
-    void draw_bucket_row(int row, Image& image) const;
-    void draw_texel_row(int y, Image& image) const;
-    float draw_texel(int x, int y, const std::vector<Entry>& bucket, const std::vector<double>& levels) const;
-
-    void find_levels(int y, std::vector<double>& levels) const;
-    void cross_row(const Entry& entry, double y, std::vector<RowCrossing>& crossings) const;
-    void fill_row(double y, std::vector<RowCrossing>& crossings, double* levels) const;
-
-    Cover cover_of(const Entry& entry, Vec2 centre, double ground, Plane& plane) const;
-    Cover cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground,
-                          Plane& plane) const;
-    bool merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const;
-    double sample(const std::vector<Entry>& entries, Vec2 p, double ground) const;
-    // Rays begin at the object surface and end at the deepest point: a reader sees nothing beyond.
-    double seen(double z) const { return std::clamp(z, base_offset_ - truth_.depth, base_offset_); }
-    float value_of(double z) const {
-        return static_cast<float>(1.0 + (seen(z) - base_offset_) / truth_.depth);
-    }
-
-    Truth owner_;
-    const Prepared& truth_;
-    double base_offset_;
-    int width_, height_, samples_, threads_;
-    double tolerance_;
-    TexelRegion region_;
-    Vec2 texel_;     // metres per texel
-    double radius_;  // half the diagonal of a texel
-    Vec2 spread_;    // mean square distance of the samples from the centre, per axis
-    int first_column_ = 0, last_column_ = 0, first_row_ = 0, last_row_ = 0;
-    std::vector<std::vector<Entry>> buckets_;
-    std::vector<std::vector<Entry>> step_rows_;  // step path lines over each row of buckets
-};
+namespace rasterizing {
 
 Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, const RasterizeOptions& options)
     : owner_(pattern, TruthOptions{.level_tolerance = options.level_tolerance}),
@@ -103,6 +34,9 @@ Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, co
     radius_ = 0.5 * length(texel_);
     const double share = (1.0 - 1.0 / (samples_ * samples_)) / 12.0;
     spread_ = {texel_.x * texel_.x * share, texel_.y * texel_.y * share};
+    for (int j = 0; j < samples_; ++j)
+        for (int i = 0; i < samples_; ++i)
+            around_.push_back({((i + 0.5) / samples_ - 0.5) * texel_.x, ((j + 0.5) / samples_ - 0.5) * texel_.y});
     first_column_ = region_.x / kBucket;
     last_column_ = (region_.x + region_.width - 1) / kBucket;
     first_row_ = region_.y / kBucket;
@@ -111,11 +45,6 @@ Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, co
 
 // ---- buckets
 // -------------------------------------------------------------------------------------------------
-
-bool near_box(const Box& box, Vec2 p, double radius) {
-    return p.x + radius >= box.low.x && p.y + radius >= box.low.y && p.x - radius <= box.high.x &&
-           p.y - radius <= box.high.y;
-}
 
 // False only where the element acts at no point within `radius` of p.
 bool Rasterizer::can_act(const PreparedElement& e, Vec2 p, double radius) const {
@@ -129,6 +58,19 @@ bool Rasterizer::can_act(const PreparedElement& e, Vec2 p, double radius) const 
     }
     // b' is never nearer to 0 than b, and b changes no faster than p.
     return std::abs(truth::find_foot(e, p).offset) <= e.reach + slack;
+}
+
+// True only where the element acts at all points within `radius` of p, as far as its reach goes, with b' = b.
+bool Rasterizer::acts_by_offset(const PreparedElement& e, Vec2 p, double radius) const {
+    if (e.scaled || !truth_.profiles[e.profile].height_field || !(e.width0 > 0.0)) return false;
+    for (const PreparedEnd& end : e.ends) {
+        const double a = dot(p - end.vertex, end.outward), c = dot(p - end.vertex, end.clip_inward);
+        const bool stops = end.priority == Priority::none, ends = end.priority == Priority::both;
+        // A clip lets b' = b also beyond the end.
+        const bool clear = ends && end.end == EndShape::clip ? c > radius : a < -radius && (stops || ends || c > radius);
+        if (!clear) return false;
+    }
+    return true;
 }
 
 void Rasterizer::fill_buckets() {
@@ -156,7 +98,7 @@ void Rasterizer::fill_buckets() {
                     buckets_[static_cast<std::size_t>(y - first_row_) *
                                  static_cast<std::size_t>(bucket_columns()) +
                              static_cast<std::size_t>(x - first_column_)]
-                        .push_back({&e, shift});
+                        .push_back({&e, shift, acts_by_offset(e, centre - shift, radius)});
                 }
             }
         });
@@ -171,7 +113,7 @@ void Rasterizer::fill_step_rows() {
         for (int row = first_row_; row <= last_row_; ++row)
             truth::for_each_image(
                 truth_, e.box, {0.0, row * side}, {truth_.size.x, (row + 1) * side}, [&](Vec2 shift) {
-                    step_rows_[static_cast<std::size_t>(row - first_row_)].push_back({&e, shift});
+                    step_rows_[static_cast<std::size_t>(row - first_row_)].push_back({&e, shift, false});
                 });
     }
 }
@@ -210,11 +152,12 @@ void Rasterizer::cross_row(const Entry& entry, double y, std::vector<RowCrossing
 
 // Levels at the samples of one row. Where neighbouring crossings do not agree (they touch) the truth is
 // asked.
-void Rasterizer::fill_row(double y, std::vector<RowCrossing>& crossings, double* levels) const {
+std::vector<SampleRun> Rasterizer::find_runs(double y, std::vector<RowCrossing>& crossings) const {
     std::erase_if(crossings, [&](const RowCrossing& c) { return c.x < 0.0 || c.x > truth_.size.x; });
     std::sort(crossings.begin(), crossings.end(), [](const RowCrossing& a, const RowCrossing& b) {
         return a.x != b.x ? a.x < b.x : a.before < b.before;
     });
+    std::vector<SampleRun> runs;
     const double pitch = texel_.x / samples_;
     const int first = region_.x * samples_, count = region_.width * samples_;
     int at = 0;
@@ -234,194 +177,68 @@ void Rasterizer::fill_row(double y, std::vector<RowCrossing>& crossings, double*
         const bool next_tie = i + 1 < crossings.size() && crossings[i + 1].x - to < 1e-9 * truth_.size.x;
         if ((open_start && open_end) || differ || (open_end && tie) || (open_start && next_tie))
             level = owner_.ground_at({0.5 * (from + to), y});
-        std::fill(levels + at, levels + end, level);
+        runs.push_back({end, level});
         at = end;
     }
+    return runs;
 }
 
-// Levels at all samples of texel row y, sample rows one after another. Empty when there is no step at all.
-void Rasterizer::find_levels(int y, std::vector<double>& levels) const {
-    levels.clear();
-    if (truth_.steps.empty()) return;
-    const std::size_t count = static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(samples_);
-    levels.resize(count * static_cast<std::size_t>(samples_));
+// Levels of texel row y, from those of its rows of samples.
+std::vector<TexelRun> Rasterizer::find_levels(int y) const {
+    if (truth_.steps.empty()) return {{region_.width, truth_.outer_level, {}}};
     std::vector<RowCrossing> crossings;
+    std::vector<std::vector<SampleRun>> rows;
     for (int s = 0; s < samples_; ++s) {
         const double v = (y + (s + 0.5) / samples_) * texel_.y;
         crossings.clear();
         for (const Entry& entry : step_rows_[static_cast<std::size_t>(y / kBucket - first_row_)])
             cross_row(entry, v, crossings);
-        fill_row(v, crossings, levels.data() + count * static_cast<std::size_t>(s));
+        rows.push_back(find_runs(v, crossings));
     }
-}
-
-// ---- one texel
-// -----------------------------------------------------------------------------------------------
-
-// With b' = b over the whole texel: which facets it meets, and how much a curve bends the plane.
-Cover Rasterizer::cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground,
-                                  Plane& plane) const {
-    const PreparedProfile& profile = truth_.profiles[e.profile];
-    const double width = e.width0, height = e.height0;
-    const Vec2 t = truth::tangent_on(e, foot.parameter), n = normal_of(t);
-    double reach = 0.5 * (std::abs(n.x) * texel_.x + std::abs(n.y) * texel_.y), bend = 0.0;
-    if (e.kind == ElementKind::quadratic) {
-        // Second derivative of b along t: -k / (1 - k b), k the curvature.
-        const Vec2 d = e.edge + e.bend * foot.parameter;
-        const double l = length(d), k = l > 0.0 ? cross(d, e.bend) / (2.0 * l * l * l) : 1e300;
-        const double inside = 1.0 - k * foot.offset;
-        if (!(inside > 0.0) || std::abs(k) * radius_ > 0.1 * inside) return Cover::mixed;
-        bend = -k / inside;
-        reach += 0.6 * std::abs(bend) * radius_ * radius_;
-        static_cast<void>(p);
-    }
-    const double low = (foot.offset - reach) / width, high = (foot.offset + reach) / width;
-    if (high < profile.low || low > profile.high) return Cover::absent;
-    if (e.step && std::abs(foot.offset) <= reach) return Cover::mixed;
-    const double side = foot.offset < 0.0 ? e.left_level : e.right_level;
-    if (std::abs(ground - side) > truth_.level_tolerance) return Cover::absent;
-    for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
-        if (low < profile.points[i].b || high > profile.points[i + 1].b) continue;
-        const double slope = height * profile.slope[i] / width;
-        const double h =
-            height * (profile.points[i].h + profile.slope[i] * (foot.offset / width - profile.points[i].b));
-        const double correction = 0.5 * slope * bend * (t.x * t.x * spread_.x + t.y * t.y * spread_.y);
-        if (correction != 0.0 && !(std::abs(correction * bend) * radius_ < tolerance_)) return Cover::mixed;
-        plane.middle = e.level + h + correction;
-        plane.low = e.level + h - std::abs(slope) * reach;
-        plane.high = e.level + h + std::abs(slope) * reach;
-        plane.internal = (profile.internal_mask >> i) & 1u;
-        return Cover::plane;
-    }
-    return Cover::mixed;
-}
-
-Cover Rasterizer::cover_of(const Entry& entry, Vec2 centre, double ground, Plane& plane) const {
-    const PreparedElement& e = *entry.element;
-    const Vec2 p = centre - entry.shift;
-    const double r = radius_ * (1.0 + 1e-9);
-    if (!near_box(e.box, p, r)) return Cover::absent;
-    const Foot foot = truth::find_foot(e, p);
-    if (std::abs(foot.offset) > e.reach + r) return Cover::absent;
-    bool clear = !e.scaled && truth_.profiles[e.profile].height_field && e.width0 > 0.0;
-    for (const PreparedEnd& end : e.ends) {
-        const double a = dot(p - end.vertex, end.outward), c = dot(p - end.vertex, end.clip_inward);
-        const bool stops = end.priority == Priority::none;
-        const bool caps = end.priority == Priority::both && end.end != EndShape::clip;
-        const bool clips = end.priority == Priority::both && end.end == EndShape::clip;
-        if (stops && a > r) return Cover::absent;
-        if (clips && c < -r) return Cover::absent;
-        if (caps && a > e.reach + r) return Cover::absent;
-        // Inside the end everywhere in the texel, whatever the side; a clip lets b' = b also beyond the end.
-        if (!(clips ? c > r : a < -r && (stops || caps || c > r))) clear = false;
-    }
-    return clear ? cover_by_offset(e, p, foot, ground, plane) : Cover::mixed;
-}
-
-// min(max(ground, adds), cuts) where one plane rules over the whole texel; false where planes cross in it.
-bool Rasterizer::merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const {
-    Plane base{ground, ground, ground, false};
-    for (const Plane& plane : planes) {  // highest base
-        if (plane.low >= base.high)
-            base = plane;
-        else if (plane.high > base.low)
-            return false;
-    }
-    Plane cut{1e300, 1e300, 1e300, true};
-    for (const Plane& plane : planes) {  // lowest cut
-        if (!plane.internal) continue;
-        if (plane.high <= cut.low)
-            cut = plane;
-        else if (plane.low < cut.high)
-            return false;
-    }
-    if (cut.low < base.high && cut.high > base.low && !(cut.middle == base.middle && cut.low == base.low))
-        return false;
-    mean = std::min(base.middle, cut.middle);
-    return true;
-}
-
-double Rasterizer::sample(const std::vector<Entry>& entries, Vec2 p, double ground) const {
-    double base = ground, cut = 1e300;
-    Local local;
-    for (const Entry& entry : entries) {
-        const PreparedElement& e = *entry.element;
-        if (!near_box(e.box, p - entry.shift, 0.0) ||
-            !truth::acts_at(truth_, e, p - entry.shift, ground, local))
-            continue;
-        const PreparedProfile& profile = truth_.profiles[e.profile];
-        const double b = local.offset / local.width;
-        for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
-            if (!(profile.points[i].b <= b && b < profile.points[i + 1].b)) continue;
-            const double z =
-                e.level + local.height * (profile.points[i].h + profile.slope[i] * (b - profile.points[i].b));
-            base = std::max(base, z);
-            if ((profile.internal_mask >> i) & 1u) cut = std::min(cut, z);
-            break;
+    std::vector<TexelRun> texels;
+    std::vector<std::size_t> at(rows.size(), 0);
+    for (int x = 0; x < region_.width;) {
+        int end = region_.width;  // as far as all rows have one level
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+            while (rows[j][at[j]].end <= x * samples_) ++at[j];
+            const SampleRun& run = rows[j][at[j]];
+            end = run.level == rows[0][at[0]].level ? std::min(end, run.end / samples_) : x;
         }
+        if (end > x) {
+            texels.push_back({end, rows[0][at[0]].level, {}});
+            x = end;
+            continue;
+        }
+        TexelRun mixed{++x, rows[0][at[0]].level, {}};
+        for (std::size_t j = 0; j < rows.size(); ++j)
+            for (int i = (x - 1) * samples_; i < x * samples_; ++i) {
+                while (rows[j][at[j]].end <= i) ++at[j];
+                mixed.levels.push_back(rows[j][at[j]].level);
+            }
+        texels.push_back(std::move(mixed));
     }
-    return std::min(base, cut);
-}
-
-float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket,
-                             const std::vector<double>& levels) const {
-    const std::size_t row = static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(samples_);
-    const std::size_t first = static_cast<std::size_t>(x - region_.x) * static_cast<std::size_t>(samples_);
-    const std::size_t n = static_cast<std::size_t>(samples_);
-    const auto level_of = [&](std::size_t i, std::size_t j) {
-        return levels.empty() ? truth_.outer_level : levels[row * j + first + i];
-    };
-    const double ground = level_of(0, 0);
-    bool uniform = true;
-    for (std::size_t k = 0; k < n * n && uniform && !levels.empty(); ++k)
-        uniform = level_of(k % n, k / n) == ground;
-    if (uniform && bucket.empty()) return value_of(ground);
-
-    const Vec2 centre = texel_centre(x, y);
-    thread_local std::vector<Entry> entries;  // those that act in this texel
-    thread_local std::vector<Plane> planes;
-    entries.clear();
-    planes.clear();
-    bool mixed = !uniform, height_field = true;
-    for (const Entry& entry : bucket) {
-        Plane plane;
-        const Cover cover = uniform ? cover_of(entry, centre, ground, plane) : Cover::mixed;
-        if (cover == Cover::absent) continue;
-        entries.push_back(entry);
-        planes.push_back(plane);
-        mixed = mixed || cover == Cover::mixed;
-        height_field = height_field && truth_.profiles[entry.element->profile].height_field;
-    }
-    double mean = 0.0;
-    if (!mixed && merge_planes(planes, ground, mean)) return value_of(mean);
-
-    std::vector<std::uint32_t> candidates;
-    if (!height_field)
-        for (const Entry& entry : entries)
-            candidates.push_back(static_cast<std::uint32_t>(entry.element - truth_.elements.data()));
-    std::sort(candidates.begin(), candidates.end());
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-    double sum = 0.0;
-    for (std::size_t k = 0; k < n * n; ++k) {
-        const std::size_t i = k % n, j = k / n;
-        const Vec2 p{(x + (static_cast<double>(i) + 0.5) / samples_) * texel_.x,
-                     (y + (static_cast<double>(j) + 0.5) / samples_) * texel_.y};
-        sum += seen(height_field ? sample(entries, p, level_of(i, j))
-                                 : owner_.surface_at(p, candidates, level_of(i, j)).height);
-    }
-    return value_of(sum / static_cast<double>(n * n));
+    return texels;
 }
 
 // ---- the map
 // -------------------------------------------------------------------------------------------------
 
 void Rasterizer::draw_texel_row(int y, Image& image) const {
-    thread_local std::vector<double> levels;
-    find_levels(y, levels);
+    const std::vector<TexelRun> levels = find_levels(y);
     const std::vector<Entry>* row = &buckets_[static_cast<std::size_t>(y / kBucket - first_row_) *
                                               static_cast<std::size_t>(bucket_columns())];
-    for (int x = region_.x; x < region_.x + region_.width; ++x)
-        image.at(x - region_.x, y - region_.y) = draw_texel(x, y, row[x / kBucket - first_column_], levels);
+    float* out = &image.at(0, y - region_.y);
+    int x = 0;  // within the region
+    for (const TexelRun& run : levels) {
+        const float empty = value_of(run.level);
+        while (x < run.end) {
+            const int column = (x + region_.x) / kBucket;
+            const std::vector<Entry>& bucket = row[column - first_column_];
+            const int end = std::min(run.end, (column + 1) * kBucket - region_.x);
+            if (bucket.empty() && run.levels.empty()) std::fill(out + x, out + end, empty), x = end;
+            for (; x < end; ++x) out[x] = draw_texel(x + region_.x, y, bucket, run);
+        }
+    }
 }
 
 void Rasterizer::draw_bucket_row(int row, Image& image) const {
@@ -447,11 +264,11 @@ Image Rasterizer::run() {
     return image;
 }
 
-}  // namespace
+}  // namespace rasterizing
 
 Image rasterize_height(const ResolvedPattern& pattern, int width, int height,
                        const RasterizeOptions& options) {
-    return Rasterizer(pattern, width, height, options).run();
+    return rasterizing::Rasterizer(pattern, width, height, options).run();
 }
 
 }  // namespace burin

@@ -10,6 +10,7 @@
 #include <burin/rasterize.hpp>
 #include <burin/resolve.hpp>
 
+#include "parallel.hpp"
 #include "vectorize_fit.hpp"
 #include "vectorize_internal.hpp"
 #include "vectorize_profiles.hpp"
@@ -22,24 +23,41 @@ using namespace vectorizing;
 // Regions that hold a smaller share of the map's sum of squares than this join a neighbour.
 constexpr double kLeastRegionShare = 4e-5;
 
-// Mean differences between neighbouring rows (columns), and last between the opposite borders.
-std::vector<double> row_differences(const Image& map, bool columns) {
-    const int lines = columns ? map.width : map.height, length = columns ? map.height : map.width;
-    std::vector<double> differences(static_cast<std::size_t>(lines), 0.0);
-    for (int line = 0; line < lines; ++line) {
-        const int next = (line + 1) % lines;
-        for (int k = 0; k < length; ++k)
-            differences[line] += columns ? std::fabs(map.at(line, k) - map.at(next, k))
-                                         : std::fabs(map.at(k, line) - map.at(k, next));
-        differences[line] /= length;
-    }
+// Mean differences between neighbouring rows, and last between the first and the last.
+std::vector<double> row_differences(const Image& map, int threads) {
+    std::vector<double> differences(static_cast<std::size_t>(map.height), 0.0);
+    for_each_band(map.height, threads, [&](const Band& band) {
+        for (int y = band.begin; y < band.end; ++y) {
+            const float* here = &map.texels[static_cast<std::size_t>(y) * map.width];
+            const float* next = &map.texels[static_cast<std::size_t>((y + 1) % map.height) * map.width];
+            double sum = 0.0;
+            for (int x = 0; x < map.width; ++x) sum += std::fabs(here[x] - next[x]);
+            differences[y] = sum / map.width;
+        }
+    });
+    return differences;
+}
+
+std::vector<double> column_differences(const Image& map, int threads) {
+    constexpr int kSlices = 8;
+    const std::size_t w = static_cast<std::size_t>(map.width);
+    std::vector<double> sums(kSlices * w, 0.0), differences(w, 0.0);
+    for_each_band(map.height, kSlices, threads, [&](const Band& band) {
+        double* sum = &sums[band.index * w];
+        for (int y = band.begin; y < band.end; ++y) {
+            const float* row = &map.texels[static_cast<std::size_t>(y) * w];
+            for (std::size_t x = 0; x + 1 < w; ++x) sum[x] += std::fabs(row[x] - row[x + 1]);
+            sum[w - 1] += std::fabs(row[w - 1] - row[0]);
+        }
+    });
+    for (std::size_t k = 0; k < sums.size(); ++k) differences[k % w] += sums[k] / map.height;
     return differences;
 }
 
 // A map tiles when its opposite borders differ no more than neighbours inside do where an edge lies between them.
-bool borders_match(const Image& map) {
+bool borders_match(const Image& map, int threads) {
     for (const bool columns : {false, true}) {
-        std::vector<double> differences = row_differences(map, columns);
+        std::vector<double> differences = columns ? column_differences(map, threads) : row_differences(map, threads);
         const double border = differences.back();
         differences.pop_back();
         if (differences.empty()) continue;
@@ -47,11 +65,6 @@ bool borders_match(const Image& map) {
         if (border > differences[differences.size() * 99 / 100] + 0.004) return false;
     }
     return true;
-}
-
-double total_energy(const Image& map, Wrap wrap) {
-    const Image flat(map.width, map.height, 0.0f);
-    return compare_heights(flat, map, wrap).input_variance * static_cast<double>(map.texels.size());
 }
 
 // Lines, then the plateaus in what is left of the map without them.
@@ -65,33 +78,41 @@ void find_features(const Image& source, Traced& traced) {
                        lattice.threads};
     Image map = mirror_margin(source, margin);
     std::vector<Chain> grooves, ridges;
-    Image with_grooves = map, with_ridges = map;  // without the lines of the other kind
+    Erased erased_grooves, erased_ridges;
     // Thin lines first: between them, to a wide look, the ground is a ridge.
     for (const double r : {std::clamp(0.4 * radius, 4.0, 8.0), radius}) {
-        const bool grooves_first = line_energy(map, wide, ChainKind::groove, r, noise) >=
-                                   line_energy(map, wide, ChainKind::ridge, r, noise);
+        Image response = line_response(map, wide, ChainKind::groove, r, noise);
+        const double groove_energy = line_energy(response, noise);
+        Image other = line_response(map, wide, ChainKind::ridge, r, noise);
+        const bool grooves_first = groove_energy >= line_energy(other, noise);
+        if (!grooves_first) response = std::move(other);
+        other = {};
         for (const bool first : {true, false}) {
             const ChainKind kind = first == grooves_first ? ChainKind::groove : ChainKind::ridge;
             std::vector<Chain>& lines = kind == ChainKind::groove ? grooves : ridges;
-            Image& with_same = kind == ChainKind::groove ? with_grooves : with_ridges;
-            Image& with_other = kind == ChainKind::groove ? with_ridges : with_grooves;
-            const Image before = map;
-            for (Chain& chain : trace_lines(map, with_same, wide, kind, {r, radius}, noise, energy))
+            Erased& erased = kind == ChainKind::groove ? erased_grooves : erased_ridges;
+            if (!first) response = line_response(map, wide, kind, r, noise);
+            for (Chain& chain : trace_lines(map, std::move(response), erased, wide, kind, {r, radius}, noise, energy))
                 lines.push_back(std::move(chain));
-            for (std::size_t i = 0; i < map.texels.size(); ++i) with_other.texels[i] += map.texels[i] - before.texels[i];
         }
     }
-    tie_lines(grooves, with_grooves, wide, ChainKind::groove, radius);
-    tie_lines(ridges, with_ridges, wide, ChainKind::ridge, radius);
+    if (!grooves.empty())
+        tie_lines(grooves, restored_response(map, erased_grooves, wide, ChainKind::groove, radius, noise), wide);
+    if (!ridges.empty())
+        tie_lines(ridges, restored_response(map, erased_ridges, wide, ChainKind::ridge, radius, noise), wide);
     traced.lines = std::move(grooves);
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
     for (const ChainKind kind : {ChainKind::groove, ChainKind::ridge})
         for (Chain& spot : trace_spots(map, wide, kind, radius, noise, energy)) traced.lines.push_back(std::move(spot));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
-    traced.flattened = crop_margin(map, margin, lattice);
-    const std::vector<std::uint8_t> flat = find_flat(traced.flattened, lattice, noise);
-    traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy, flat);
-    traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
+    const Image flattened = margin > 0 ? crop_margin(map, margin, lattice) : std::move(map);
+    map = {};
+    for (int i = 0; i < lattice.size(); ++i)
+        if (flattened.texels[i] != source.texels[i]) traced.changed.push_back({i, flattened.texels[i]});
+    traced.changed.shrink_to_fit();
+    const std::vector<std::uint8_t> flat = find_flat(flattened, lattice, noise);
+    traced.regions = segment_regions(flattened, lattice, noise, kLeastRegionShare * energy, flat);
+    traced.steps = trace_steps(flattened, {}, lattice, traced.regions);
 }
 
 std::size_t count_elements(const std::vector<FittedChain>& chains) {
@@ -129,7 +150,7 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
         const std::size_t before = regions.level.size();
         merge_regions(result.noise, share * energy, regions);
         if (regions.level.size() == before) continue;
-        fewer_steps = trace_steps(traced.flattened, lattice, regions);
+        fewer_steps = trace_steps(map, traced.changed, lattice, regions);
         steps = count_lines(fewer_steps, result.tolerance);
     }
     const bool merged = regions.level.size() < traced.regions.level.size();
@@ -252,13 +273,13 @@ std::size_t element_budget(const Lattice& lattice, const VectorizeOptions& optio
     return static_cast<std::size_t>(most / 36.0);
 }
 
-Wrap choose_wrap(const Image& map, WrapChoice choice) {
-    if (choice == WrapChoice::automatic) return borders_match(map) ? Wrap::repeat : Wrap::clamp;
-    return choice == WrapChoice::repeat ? Wrap::repeat : Wrap::clamp;
-}
-
 int thread_count(const VectorizeOptions& options) {
     return options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+Wrap choose_wrap(const Image& map, WrapChoice choice, int threads) {
+    if (choice == WrapChoice::automatic) return borders_match(map, threads) ? Wrap::repeat : Wrap::clamp;
+    return choice == WrapChoice::repeat ? Wrap::repeat : Wrap::clamp;
 }
 
 ProfileOptions profile_options(const Traced& traced) {
@@ -277,8 +298,8 @@ Error stopped() { return {ErrorCode::invalid_argument, "vectorize: stopped by th
 Result<SoftGround> separate_ground(const HeightMap& map, const VectorizeOptions& options) {
     const Status checked = check_options(map, options);
     if (!checked) return checked.error();
-    const Wrap wrap = choose_wrap(map.image, options.wrap);
-    const Lattice lattice{map.image.width, map.image.height, wrap == Wrap::repeat};
+    const Wrap wrap = choose_wrap(map.image, options.wrap, thread_count(options));
+    const Lattice lattice{map.image.width, map.image.height, wrap == Wrap::repeat, thread_count(options)};
     const Image ground = soft_ground(map.image, lattice, estimate_noise(map.image, lattice));
     SoftGround separated{map, 0.0};
     double square = 0.0;
@@ -297,11 +318,11 @@ Result<SoftGround> separate_ground(const HeightMap& map, const VectorizeOptions&
 Result<TracedMap> trace_map(const HeightMap& map, const VectorizeOptions& options, const Progress& progress) {
     const Status checked = check_options(map, options);
     if (!checked) return checked.error();
-    const Wrap wrap = choose_wrap(map.image, options.wrap);
+    const Wrap wrap = choose_wrap(map.image, options.wrap, thread_count(options));
     auto traced = std::make_shared<Traced>();
     traced->lattice = {map.image.width, map.image.height, wrap == Wrap::repeat, thread_count(options)};
     traced->noise = estimate_noise(map.image, traced->lattice);
-    traced->energy = total_energy(map.image, wrap);
+    traced->energy = detail_variance(map.image, wrap, traced->lattice.threads) * static_cast<double>(map.image.texels.size());
     if (progress && !progress("vectorize", 0.05)) return stopped();
     find_features(map.image, *traced);
     return TracedMap{std::move(traced)};

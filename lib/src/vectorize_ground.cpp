@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parallel.hpp"
+
 namespace burin::vectorizing {
 namespace {
 
@@ -37,17 +39,20 @@ Slopes measure_slopes(const Image& map, const Lattice& lattice, const std::vecto
         slopes.rise[axis].assign(blocks.size(), 0.0);
         slopes.count[axis].assign(blocks.size(), 0.0);
     }
-    for (int y = 0; y < lattice.height; ++y)
-        for (int x = 0; x < lattice.width; ++x) {
-            const int i = y * lattice.width + x, block = (y / blocks.side) * blocks.columns + x / blocks.side;
-            if (!flat[i]) continue;
-            for (int axis : {0, 1}) {
-                const int j = axis == 0 ? lattice.index(x + 1, y) : lattice.index(x, y + 1);
-                if (j < 0 || !flat[j]) continue;
-                slopes.rise[axis][block] += static_cast<double>(map.texels[j]) - map.texels[i];
-                slopes.count[axis][block] += 1.0;
+    for_each_piece(static_cast<std::size_t>(blocks.rows), lattice.threads, [&](std::size_t row) {
+        const int begin = static_cast<int>(row) * blocks.side, end = std::min(lattice.height, begin + blocks.side);
+        for (int y = begin; y < end; ++y)
+            for (int x = 0; x < lattice.width; ++x) {
+                const int i = y * lattice.width + x, block = (y / blocks.side) * blocks.columns + x / blocks.side;
+                if (!flat[i]) continue;
+                for (int axis : {0, 1}) {
+                    const int j = axis == 0 ? lattice.index(x + 1, y) : lattice.index(x, y + 1);
+                    if (j < 0 || !flat[j]) continue;
+                    slopes.rise[axis][block] += static_cast<double>(map.texels[j]) - map.texels[i];
+                    slopes.count[axis][block] += 1.0;
+                }
             }
-        }
+    });
     return slopes;
 }
 
@@ -137,12 +142,20 @@ void blur_axis(std::vector<double>& height, const Blocks& blocks, bool along_x, 
 
 // Texels whose neighbours are flat too.
 std::vector<std::uint8_t> shrink(const std::vector<std::uint8_t>& flat, const Lattice& lattice) {
-    std::vector<std::uint8_t> out(flat.size(), 1);
-    for (int y = 0; y < lattice.height; ++y)
-        for (int x = 0; x < lattice.width; ++x)
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx)
-                    out[y * lattice.width + x] &= flat[lattice.nearest(x + dx, y + dy)];
+    std::vector<std::uint8_t> out(flat.size());
+    const int w = lattice.width;
+    for_each_band(lattice.height, lattice.threads, [&](const Band& band) {
+        std::vector<std::uint8_t> all(static_cast<std::size_t>(w));  // three texels of a column
+        for (int y = band.begin; y < band.end; ++y) {
+            const std::uint8_t* above = &flat[lattice.nearest(0, y - 1)];
+            const std::uint8_t* here = &flat[lattice.nearest(0, y)];
+            const std::uint8_t* below = &flat[lattice.nearest(0, y + 1)];
+            for (int x = 0; x < w; ++x) all[x] = above[x] & here[x] & below[x];
+            std::uint8_t* row = &out[static_cast<std::size_t>(y) * w];
+            for (int x = 1; x + 1 < w; ++x) row[x] = all[x - 1] & all[x] & all[x + 1];
+            for (const int x : {0, w - 1}) row[x] = all[lattice.nearest(x - 1, 0)] & all[x] & all[lattice.nearest(x + 1, 0)];
+        }
+    });
     return out;
 }
 
@@ -164,9 +177,11 @@ Image soft_ground(const Image& map, const Lattice& lattice, double noise) {
     Image coarse(blocks.columns, blocks.rows), out(lattice.width, lattice.height);
     std::copy(height.begin(), height.end(), coarse.texels.begin());
     const Lattice of_blocks{blocks.columns, blocks.rows, lattice.wrap};
-    for (int y = 0; y < lattice.height; ++y)
-        for (int x = 0; x < lattice.width; ++x)
-            out.at(x, y) = sample(coarse, of_blocks, {(x + 0.5) / blocks.side, (y + 0.5) / blocks.side});
+    for_each_band(lattice.height, lattice.threads, [&](const Band& band) {
+        for (int y = band.begin; y < band.end; ++y)
+            for (int x = 0; x < lattice.width; ++x)
+                out.at(x, y) = sample(coarse, of_blocks, {(x + 0.5) / blocks.side, (y + 0.5) / blocks.side});
+    });
     return out;
 }
 

@@ -51,7 +51,19 @@ struct Lattice {
 inline constexpr double kBridge = 3.0;
 
 // Bilinear value at a point of texel space (sample centres at half integers).
-float sample(const Image& image, const Lattice& lattice, Vec2 p);
+inline float sample(const Image& image, const Lattice& lattice, Vec2 p) {
+    const double x = p.x - 0.5, y = p.y - 0.5;
+    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+    const float fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
+    const float* t = image.texels.data();
+    const bool inside = x0 >= 0 && y0 >= 0 && x0 + 1 < lattice.width && y0 + 1 < lattice.height;
+    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(y0) * lattice.width + x0;
+    const float a = t[inside ? i : lattice.nearest(x0, y0)], b = t[inside ? i + 1 : lattice.nearest(x0 + 1, y0)];
+    const float c = t[inside ? i + lattice.width : lattice.nearest(x0, y0 + 1)];
+    const float d = t[inside ? i + lattice.width + 1 : lattice.nearest(x0 + 1, y0 + 1)];
+    const float top = a + (b - a) * fx, bottom = c + (d - c) * fx;
+    return top + (bottom - top) * fy;
+}
 
 enum class ChainKind : std::uint8_t { groove, ridge, step };
 
@@ -111,13 +123,20 @@ struct Regions {
     std::uint32_t at(std::size_t texel) const { return region_of[(*part)[texel]]; }
 };
 
+// Texels of a map that have other values, by rising index.
+struct ChangedTexel {
+    int texel = 0;
+    float value = 0.0f;
+};
+using Changed = std::vector<ChangedTexel>;
+
 // All that was found in a map.
 struct Traced {
     Lattice lattice;
     double noise = 0.0;   // see Vectorized
     double energy = 0.0;
     std::vector<Chain> lines, steps;
-    Image flattened;  // the map without the lines
+    Changed changed;  // what the map without its lines has otherwise than the map
     Regions regions;
 };
 
@@ -141,27 +160,36 @@ struct LineScale {
     double widest = 0.0;
 };
 
+// What was added to texels of a map to take lines out of it, in order; a texel may come more than once.
+struct Change {
+    int texel = 0;
+    float change = 0.0f;
+};
+using Erased = std::vector<Change>;
+
+// How far each texel lies below (above) the ground beside it, where that is narrower than twice `radius`.
+Image line_response(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise);
+
+// The same for the map with `erased` put back into it; the map is left as it was.
+Image restored_response(Image& map, const Erased& erased, const Lattice& lattice, ChainKind kind, double radius, double noise);
+
+// Sum of squared responses: how much of the map is grooves (or ridges) narrower than twice the radius.
+double line_energy(const Image& response, double noise);
+
 // Grooves or ridges of a scale: centre lines with junctions resolved into long chains. What the chains stand for is
 // erased from the map, so that plateaus and lines of the other sign can be looked for in the rest. A chain that explains
-// less than a little of `energy`, the map's whole sum of squares, is left out. `intact`: the map with all lines of this
-// kind still in it, where they are measured.
-std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& lattice, ChainKind kind, const LineScale& scale, double noise,
-                               double energy);
-
-// Depth of each texel below the closing of the map by a square (grooves), or height above its opening (ridges).
-Image hat_response(const Image& map, const Lattice& lattice, ChainKind kind, int radius);
-// Texels above a good part of the strongest response around them, and above `least`.
-std::vector<std::uint8_t> strong_mask(const Image& response, const Lattice& lattice, int radius, double least);
-double least_response(double noise);  // of a hat: what the grain does not show
-int square_radius(double radius);     // texels to each side of a square
+// less than a little of `energy`, the map's whole sum of squares, is left out. `response`: line_response of the map;
+// `erased`: the lines of this kind erased so far, which are put back where lines are measured, and those erased now.
+std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const Lattice& lattice, ChainKind kind,
+                               const LineScale& scale, double noise, double energy);
 
 // Grooves or ridges too short for a line and too small for a plateau, in what is left of the map without lines; taken
 // out of it. Every spot explains more than a little of `energy`.
 std::vector<Chain> trace_spots(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
                                double energy);
 
-// Joins and ties the ends of all lines of one kind by the map that has them in it: the two below.
-void tie_lines(std::vector<Chain>& chains, const Image& map, const Lattice& lattice, ChainKind kind, double radius);
+// Joins and ties the ends of all lines of one kind by the response of the map that has them in it: the two below.
+void tie_lines(std::vector<Chain>& chains, const Image& response, const Lattice& lattice);
 
 // Total least squares line through at least one point.
 struct LineFit {
@@ -177,9 +205,6 @@ void join_facing_ends(std::vector<Chain>& chains, const Image& response, const L
 // shows no gap between the two.
 void extend_to_lines(std::vector<Chain>& chains, const Image& response, const Lattice& lattice);
 
-// Sum of squared responses: how much of the map is grooves (or ridges) narrower than twice `radius`.
-double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise);
-
 // 1 for texels of flat ground, where the values around differ by no more than the grain explains.
 std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, double noise);
 
@@ -191,7 +216,7 @@ void measure_regions(const Image& map, const Lattice& lattice, const std::vector
                      const std::vector<std::uint32_t>& label, Regions& regions);
 void merge_regions(double noise, double least_energy, Regions& regions);
 
-// The step contours between regions.
-std::vector<Chain> trace_steps(const Image& map, const Lattice& lattice, const Regions& regions);
+// The step contours between regions of the map, but for `changed`.
+std::vector<Chain> trace_steps(const Image& map, const Changed& changed, const Lattice& lattice, const Regions& regions);
 
 }  // namespace burin::vectorizing

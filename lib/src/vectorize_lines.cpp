@@ -1,66 +1,17 @@
 // Grooves and ridges: what a closing (or opening) fills is narrower than its square; the mask of what was filled is
 // thinned to centre lines, which are then measured and joined.
-#include "vectorize_internal.hpp"
+#include "vectorize_hat.hpp"
 #include "vectorize_skeleton.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 
-#include <opencv2/imgproc.hpp>
+#include "parallel.hpp"
 
 namespace burin::vectorizing {
-namespace {
-
-cv::Mat padded(const Image& image, const Lattice& lattice, int margin) {
-    cv::Mat out(lattice.height + 2 * margin, lattice.width + 2 * margin, CV_32F);
-    for (int y = 0; y < out.rows; ++y) {
-        float* row = out.ptr<float>(y);
-        for (int x = 0; x < out.cols; ++x) row[x] = image.texels[lattice.nearest(x - margin, y - margin)];
-    }
-    return out;
-}
-
-Image cropped(const cv::Mat& mat, const Lattice& lattice, int margin) {
-    Image out(lattice.width, lattice.height);
-    for (int y = 0; y < lattice.height; ++y) {
-        const float* row = mat.ptr<float>(y + margin) + margin;
-        std::copy(row, row + lattice.width, &out.texels[static_cast<std::size_t>(y) * lattice.width]);
-    }
-    return out;
-}
-
-}  // namespace
-
-Image hat_response(const Image& map, const Lattice& lattice, ChainKind kind, int radius) {
-    const int margin = 2 * radius + 1;
-    const cv::Mat source = padded(map, lattice, margin);
-    const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1});
-    cv::Mat hat;
-    cv::morphologyEx(source, hat, kind == ChainKind::groove ? cv::MORPH_BLACKHAT : cv::MORPH_TOPHAT, square);
-    return cropped(hat, lattice, margin);
-}
-
-// Where two lines cross, the map is often twice as deep: with a half instead of 0.4 the lines would lose touch with
-// their crossing.
-std::vector<std::uint8_t> strong_mask(const Image& response, const Lattice& lattice, int radius, double least) {
-    const int margin = radius + 1;
-    const cv::Mat source = padded(response, lattice, margin);
-    const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {2 * radius + 1, 2 * radius + 1});
-    cv::Mat peak;
-    cv::dilate(source, peak, square);
-    const Image local = cropped(peak, lattice, margin);
-    std::vector<std::uint8_t> mask(response.texels.size());
-    for (std::size_t i = 0; i < mask.size(); ++i)
-        mask[i] = response.texels[i] > std::max(0.4f * local.texels[i], static_cast<float>(least));
-    return mask;
-}
-
-double least_response(double noise) { return std::max(4.0 * noise, 0.012); }
-
-int square_radius(double radius) { return std::max(2, static_cast<int>(std::lround(radius))); }
-
 namespace {
 
 // The connected parts of a mask, without those whose area or summed response is that of a speck.
@@ -119,13 +70,51 @@ double chain_length(const Chain& chain) {
 
 constexpr std::int32_t kNobody = -1, kSeveral = -2;
 
+// Visits the discs of texels around a place that moves, each but for what the disc before it held too.
+class MovingDisc {
+  public:
+    explicit MovingDisc(int reach) : reach_(reach) {
+        for (int dy = -reach; dy <= reach; ++dy)
+            for (int dx = -reach; dx <= reach; ++dx)
+                if (holds(dx, dy)) add({dx, dy});
+    }
+
+    // Calls visit(x, y) with unwrapped coordinates.
+    template <typename Visit>
+    void move_to(int x, int y, const Visit& visit) {
+        const int dx = x - x_, dy = y - y_;
+        const bool near = placed_ && std::abs(dx) <= 1 && std::abs(dy) <= 1;
+        x_ = x, y_ = y, placed_ = true;
+        if (near && dx == 0 && dy == 0) return;
+        for (const Offset& o : near ? entering_[(dy + 1) * 3 + dx + 1] : all_) visit(x + o.dx, y + o.dy);
+    }
+
+  private:
+    struct Offset {
+        int dx, dy;
+    };
+    bool holds(int dx, int dy) const { return dx * dx + dy * dy <= reach_ * reach_; }
+    void add(Offset o) {
+        all_.push_back(o);
+        for (int my = -1; my <= 1; ++my)
+            for (int mx = -1; mx <= 1; ++mx)
+                if (!holds(o.dx + mx, o.dy + my)) entering_[(my + 1) * 3 + mx + 1].push_back(o);
+    }
+
+    int reach_, x_ = 0, y_ = 0;
+    bool placed_ = false;
+    std::vector<Offset> all_, entering_[9];  // by the move that brings them in
+};
+
 // Which chain each texel is a part of: its index, nobody's, or several chains'.
 std::vector<std::int32_t> claim_texels(const std::vector<Chain>& chains, const Lattice& lattice) {
     std::vector<std::int32_t> owner(static_cast<std::size_t>(lattice.size()), kNobody);
     for (std::size_t c = 0; c < chains.size(); ++c) {
-        const int reach = static_cast<int>(std::ceil(chains[c].half_width + 1.0));
+        MovingDisc disc(static_cast<int>(std::ceil(chains[c].half_width + 1.0)));
         for_each_place(chains[c], [&](Vec2 p, Vec2) {
-            for_each_texel_near(p, lattice, reach, [&](int texel, Vec2) {
+            disc.move_to(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)), [&](int x, int y) {
+                const int texel = lattice.index(x, y);
+                if (texel < 0) return;
                 const bool free = owner[texel] == kNobody || owner[texel] == static_cast<std::int32_t>(c);
                 owner[texel] = free ? static_cast<std::int32_t>(c) : kSeveral;
             });
@@ -162,7 +151,9 @@ Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& 
     Rows rows;
     rows.columns.resize(static_cast<std::size_t>(2 * n + 1));
     std::vector<float> row(rows.columns.size());
-    for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
+    // Of a long chain some hundreds of places tell as much as all.
+    const std::size_t stride = std::max<std::size_t>(1, chain.points.size() / 1000);
+    for (std::size_t i = 0; i + 1 < chain.points.size(); i += stride) {
         const Vec2 a = chain.points[i], b = chain.points[i + 1];
         const double l = length(b - a);
         // Where points are missing the chain was bridged over a crossing.
@@ -202,11 +193,16 @@ CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const 
     std::vector<double> height;
     double left = 0.0, mean = 0.0, model = 0.0;
     for (auto& column : columns) {
-        std::sort(column.begin(), column.end());
-        const double median = column[column.size() / 2];
+        const std::size_t cut = column.size() / 10;
+        const auto middle = column.begin() + static_cast<std::ptrdiff_t>(column.size() / 2);
+        std::nth_element(column.begin(), middle, column.end());
+        const double median = *middle;
+        if (cut > 0) {
+            std::nth_element(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(cut), middle);
+            std::nth_element(middle + 1, column.end() - static_cast<std::ptrdiff_t>(cut), column.end());
+        }
         height.push_back(median);
         mean += median / static_cast<double>(columns.size());
-        const std::size_t cut = column.size() / 10;
         double sum = 0.0;
         for (std::size_t i = cut; i < column.size() - cut; ++i) sum += (column[i] - median) * (column[i] - median);
         left += sum / static_cast<double>(column.size() - 2 * cut);
@@ -244,6 +240,8 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
     }
     return false;
 }
+
+float sign_of(ChainKind kind) { return kind == ChainKind::groove ? 1.0f : -1.0f; }
 
 // A chain whose points were mostly dropped as unsteady was bridged over noise.
 bool is_supported(const Chain& chain) {
@@ -291,39 +289,48 @@ bool stands_alone(const Chain& chain, std::int32_t self, const Surroundings& aro
            section.explained > 0.93;
 }
 
-// The chains that are lines; of one that is not, the parts before and behind its greatest change that are.
-std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map, const Lattice& lattice, double noise,
-                              double least_energy, const LineScale& scale) {
+// A chain that is a line; of one that is not, the parts before and behind its greatest change that are.
+std::vector<Chain> keep_lines(const Chain& whole, std::int32_t self, const Surroundings& around, double least_energy,
+                              const LineScale& scale) {
     struct Part {
         Chain chain;
-        std::int32_t of = 0;  // index of the chain it is a part of
         int splits = 0;
     };
-    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
-    const Surroundings around{map, lattice, owner, noise};
     std::vector<Chain> kept;
-    std::vector<Part> stack;
-    for (std::size_t c = chains.size(); c-- > 0;) stack.push_back({chains[c], static_cast<std::int32_t>(c), 0});
+    std::vector<Part> stack{{whole, 0}};
     while (!stack.empty()) {
-        auto [chain, of, splits] = std::move(stack.back());
+        auto [chain, splits] = std::move(stack.back());
         stack.pop_back();
         if (chain_energy(chain) < least_energy) continue;
-        if (is_supported(chain) && is_line(chain, of, around) && 
-            (scale.radius == scale.widest || stands_alone(chain, of, around, scale.radius))) {
+        if (is_supported(chain) && is_line(chain, self, around) &&
+            (scale.radius == scale.widest || stands_alone(chain, self, around, scale.radius))) {
             kept.push_back(std::move(chain));
             continue;
         }
         const bool splits_well = splits < 3 && !chain.closed && chain.points.size() >= 24 && chain.half_width <= kBroad;
-        const std::size_t at = splits_well ? find_change(chain, map, lattice) : 0;
+        const std::size_t at = splits_well ? find_change(chain, around.map, around.lattice) : 0;
         if (at == 0) continue;
         Chain second = chain;
         second.points.erase(second.points.begin(), second.points.begin() + static_cast<std::ptrdiff_t>(at));
         second.start_tie = EndTie::free;
         chain.points.resize(at);
         chain.end_tie = EndTie::free;
-        stack.push_back({std::move(second), of, splits + 1});
-        stack.push_back({std::move(chain), of, splits + 1});
+        stack.push_back({std::move(second), splits + 1});
+        stack.push_back({std::move(chain), splits + 1});
     }
+    return kept;
+}
+
+std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map, const Lattice& lattice, double noise,
+                              double least_energy, const LineScale& scale) {
+    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
+    const Surroundings around{map, lattice, owner, noise};
+    std::vector<std::vector<Chain>> parts(chains.size());
+    for_each_piece(chains.size(), lattice.threads, [&](std::size_t c) {
+        parts[c] = keep_lines(chains[c], static_cast<std::int32_t>(c), around, least_energy, scale);
+    });
+    std::vector<Chain> kept;
+    for (std::vector<Chain>& some : parts) std::move(some.begin(), some.end(), std::back_inserter(kept));
     return kept;
 }
 
@@ -393,53 +400,92 @@ bool crosses_unknown(const Chain& chain, Vec2 p, Vec2 normal, const Image& respo
     return false;
 }
 
-// Fills the lines' texels to the height of the ground beside them, which is what the closing (opening) holds.
-// Returns 1 for the texels that were filled.
-std::vector<std::uint8_t> erase_lines(Image& map, const Image& response, const Lattice& lattice,
-                                      const std::vector<Chain>& chains, const std::vector<std::int32_t>& owner,
-                                      ChainKind kind) {
-    std::vector<std::uint8_t> erased(map.texels.size(), 0);
-    const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
+// Calls visit(index, centre) as for_each_texel_near, for the texels no farther than one from the normal at p.
+template <typename Visit>
+void for_each_texel_across(Vec2 p, Vec2 normal, const Lattice& lattice, int reach, const Visit& visit) {
+    const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
+    for (int dy = -reach; dy <= reach; ++dy) {
+        int first = -reach, last = reach;
+        if (std::fabs(normal.y) > 0.01) {
+            const double middle = (y + dy + 0.5 - p.y) * normal.x / normal.y + p.x - 0.5 - x, half = 1.0 / std::fabs(normal.y);
+            first = std::max(first, static_cast<int>(std::floor(middle - half)));
+            last = std::min(last, static_cast<int>(std::ceil(middle + half)));
+        }
+        for (int dx = first; dx <= last; ++dx) {
+            const Vec2 centre{x + dx + 0.5, y + dy + 0.5};
+            if (dx * dx + dy * dy > reach * reach || std::fabs(cross(centre - p, normal)) > 1.0) continue;
+            const int j = lattice.index(x + dx, y + dy);
+            if (j >= 0) visit(j, centre);
+        }
+    }
+}
+
+// The texels of the lines, each once.
+std::vector<int> covered_texels(const Image& response, const Lattice& lattice, const std::vector<Chain>& chains,
+                                const std::vector<std::int32_t>& owner) {
+    std::vector<std::uint8_t> covered(response.texels.size(), 0);
+    std::vector<int> texels;
+    const auto cover = [&](int texel, Vec2) {
+        if (!covered[texel]) texels.push_back(texel);
+        covered[texel] = 1;
+    };
     for (const Chain& chain : chains) {
         const int reach = static_cast<int>(std::ceil(1.5 * chain.half_width + 2.0));
         for_each_place(chain, [&](Vec2 p, Vec2 normal) {
             if (crosses_unknown(chain, p, normal, response, lattice, owner)) return;
             const bool at_end = !chain.closed && (p == chain.points.front() || p == chain.points.back());
-            for_each_texel_near(p, lattice, reach, [&](int texel, Vec2 centre) {
-                // Beyond the place itself only at the ends: the next one may cross something.
-                if (erased[texel] || (!at_end && std::fabs(cross(centre - p, normal)) > 1.0)) return;
-                erased[texel] = 1;
-                map.texels[texel] += sign * response.texels[texel];
-            });
+            // Beyond the place itself only at the ends: the next one may cross something.
+            if (at_end)
+                for_each_texel_near(p, lattice, reach, cover);
+            else
+                for_each_texel_across(p, normal, lattice, reach, cover);
         });
     }
-    return erased;
+    return texels;
+}
+
+void change_texel(Image& map, int texel, float change, Erased& erased) {
+    map.texels[texel] += change;
+    erased.push_back({texel, change});
 }
 
 // Where two thin lines cross, a small square may find no level ground: what is left there of the filled texels is filled by
 // a large one.
 void erase_crossings(Image& map, const Lattice& lattice, const std::vector<std::int32_t>& owner,
-                     const std::vector<std::uint8_t>& erased, ChainKind kind, const LineScale& scale) {
-    Image crossing(map.width, map.height);
-    bool any = false;
-    for (std::size_t i = 0; i < owner.size(); ++i)
-        if (owner[i] == kSeveral) crossing.texels[i] = 1.0f, any = true;
-    if (!any) return;
+                     const std::vector<int>& covered, ChainKind kind, const LineScale& scale, double least, Erased& erased) {
     const int near = 2 * square_radius(scale.radius);
-    const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {2 * near + 1, 2 * near + 1});
-    cv::Mat around;
-    cv::dilate(padded(crossing, lattice, near), around, square);
-    crossing = cropped(around, lattice, near);
-    const Image response = hat_response(map, lattice, kind, square_radius(scale.widest));
-    const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
-    for (std::size_t i = 0; i < owner.size(); ++i)
-        if (erased[i] && crossing.texels[i] > 0.0f) map.texels[i] += sign * response.texels[i];
+    // Texels beside a crossing in its row; those above and below are looked for from where it matters.
+    std::vector<std::uint8_t> beside(owner.size(), 0);
+    for (int i = 0; i < lattice.size(); ++i)
+        for (int dx = -near; owner[i] == kSeveral && dx <= near; ++dx)
+            beside[lattice.nearest(i % lattice.width + dx, i / lattice.width)] = 1;
+    const auto is_near_crossing = [&](int texel) {
+        for (int dy = -near; dy <= near; ++dy)
+            if (beside[lattice.nearest(texel % lattice.width, texel / lattice.width + dy)]) return true;
+        return false;
+    };
+    std::vector<int> texels;
+    std::copy_if(covered.begin(), covered.end(), std::back_inserter(texels), is_near_crossing);
+    const std::vector<float> left = hat_at(map, lattice, kind, square_radius(scale.widest), least, texels);
+    for (std::size_t k = 0; k < texels.size(); ++k) change_texel(map, texels[k], sign_of(kind) * left[k], erased);
+}
+
+// Fills the lines' texels to the height of the ground beside them, which is what the closing (opening) holds.
+void erase_lines(Image& map, const Image& response, const Lattice& lattice, const std::vector<Chain>& chains, ChainKind kind,
+                 const LineScale& scale, double least, Erased& erased) {
+    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
+    const std::vector<int> covered = covered_texels(response, lattice, chains, owner);
+    for (const int texel : covered) change_texel(map, texel, sign_of(kind) * response.texels[texel], erased);
+    if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, covered, kind, scale, least, erased);
 }
 
 }  // namespace
 
-double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise) {
-    const Image response = hat_response(map, lattice, kind, square_radius(radius));
+Image line_response(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise) {
+    return hat_response(map, lattice, kind, square_radius(radius), least_response(noise));
+}
+
+double line_energy(const Image& response, double noise) {
     const float least = static_cast<float>(least_response(noise));
     double sum = 0.0;
     for (const float v : response.texels)
@@ -447,30 +493,40 @@ double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, dou
     return sum;
 }
 
-std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& lattice, ChainKind kind,
+Image restored_response(Image& map, const Erased& erased, const Lattice& lattice, ChainKind kind, double radius, double noise) {
+    std::vector<float> values;  // as they are now, to be put back exactly
+    for (const auto& [texel, change] : erased) {
+        values.push_back(map.texels[texel]);
+        map.texels[texel] -= change;
+    }
+    Image response = line_response(map, lattice, kind, radius, noise);
+    for (std::size_t k = erased.size(); k-- > 0;) map.texels[erased[k].texel] = values[k];
+    return response;
+}
+
+std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const Lattice& lattice, ChainKind kind,
                                const LineScale& scale, double noise, double energy) {
-    const int r = square_radius(scale.radius);
-    const Image response = hat_response(map, lattice, kind, r);
     const double least = least_response(noise);
     // A wide window would hide a shallow line where it comes near a deep one.
-    std::vector<std::uint8_t> mask = strong_mask(response, lattice, std::max(4, r / 3), least);
+    const int window = std::max(4, square_radius(scale.radius) / 3);
+    std::vector<std::uint8_t> mask = strong_mask(response, lattice, window, least);
     const Parts parts = find_shapes(mask, response, lattice, 24.0 * least * least);
     if (parts.runs.empty()) return {};
     thin_mask(mask, parts, lattice);
     Skeleton skeleton = trace_skeleton(mask, parts, lattice);
-    const Image whole = hat_response(intact, lattice, kind, r);
+    Image restored;
+    if (!erased.empty()) restored = restored_response(map, erased, lattice, kind, scale.radius, noise);
+    const Image& whole = erased.empty() ? response : restored;
     measure_strands(skeleton, whole, lattice);
     const std::vector<Chain> all = join_strands(skeleton, whole, lattice, kind);
+    restored = {};
     std::vector<Chain> chains = keep_lines(all, map, lattice, noise, 2e-5 * energy, scale);
     if (scale.radius == scale.widest) drop_partial_shapes(chains, mask, parts, lattice);
-    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
-    const std::vector<std::uint8_t> erased = erase_lines(map, response, lattice, chains, owner, kind);
-    if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, erased, kind, scale);
+    if (!chains.empty()) erase_lines(map, response, lattice, chains, kind, scale, least, erased);
     return chains;
 }
 
-void tie_lines(std::vector<Chain>& chains, const Image& map, const Lattice& lattice, ChainKind kind, double radius) {
-    const Image response = hat_response(map, lattice, kind, square_radius(radius));
+void tie_lines(std::vector<Chain>& chains, const Image& response, const Lattice& lattice) {
     join_facing_ends(chains, response, lattice);
     extend_to_lines(chains, response, lattice);
 }

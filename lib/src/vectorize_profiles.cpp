@@ -12,17 +12,31 @@
 
 #include <burin/fit.hpp>
 
+#include "parallel.hpp"
+
 namespace burin::vectorizing {
 namespace {
 
 // Mean of the middle 60 %: texels of crossing lines and specks do not count.
 double trimmed_mean(float* first, float* last) {
-    std::sort(first, last);
     const std::ptrdiff_t n = last - first, cut = n / 5;
+    if (cut > 0) {
+        std::nth_element(first, first + cut, last);
+        std::nth_element(first + cut, last - cut, last);
+    }
     double sum = 0.0;
     for (const float* v = first + cut; v != last - cut; ++v) sum += *v;
     return sum / static_cast<double>(n - 2 * cut);
 }
+
+// Of very many values some thousands, evenly picked, tell their mean as well.
+struct Picked {
+    std::uint32_t count = 0, next = 0;
+
+    std::uint32_t stride() const { return count / 8192 + 1; }
+    std::uint32_t size() const { return (count + stride() - 1) / stride(); }
+    bool take() { return next++ % stride() == 0; }
+};
 
 // The level of a region is what its texels far from any path have; a soft ramp along its rim belongs to the profiles.
 void settle_levels(Regions& regions, const Image& map, const std::vector<Owner>& owners, double reach) {
@@ -30,13 +44,16 @@ void settle_levels(Regions& regions, const Image& map, const std::vector<Owner>&
     std::vector<float> furthest(count, 0.0f);
     for (std::size_t i = 0; i < owners.size(); ++i) {
         float& f = furthest[regions.at(i)];
-        f = std::max(f, std::min(owners[i].distance, static_cast<float>(reach)));
+        f = std::max(f, std::min(owners[i].distance(), static_cast<float>(reach)));
     }
+    const auto is_far = [&](std::size_t i, std::uint32_t r) { return owners[i].distance() >= 0.6f * furthest[r]; };
+    std::vector<Picked> picked(count);
+    for (std::size_t i = 0; i < owners.size(); ++i)
+        if (const std::uint32_t r = regions.at(i); is_far(i, r)) ++picked[r].count;
     std::vector<std::vector<float>> values(count);
-    for (std::size_t i = 0; i < owners.size(); ++i) {
-        const std::uint32_t r = regions.at(i);
-        if (owners[i].distance >= 0.6f * furthest[r]) values[r].push_back(map.texels[i]);
-    }
+    for (std::size_t r = 0; r < count; ++r) values[r].reserve(picked[r].size());
+    for (std::size_t i = 0; i < owners.size(); ++i)
+        if (const std::uint32_t r = regions.at(i); is_far(i, r) && picked[r].take()) values[r].push_back(map.texels[i]);
     for (std::size_t r = 0; r < count; ++r)
         if (!values[r].empty())
             regions.level[r] = trimmed_mean(values[r].data(), values[r].data() + values[r].size());
@@ -79,7 +96,7 @@ void level_tails(Section& section) {
 std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, const Image& map,
                                       const std::vector<Owner>& owners, const Regions& regions, int half) {
     const std::size_t bins = static_cast<std::size_t>(2 * half + 1);
-    std::vector<std::uint32_t> first(chains.size() * bins + 1, 0);
+    std::vector<Picked> picked(chains.size() * bins);
     const auto bin_of = [&](const Owner& owner) {
         const int k = static_cast<int>(std::lround(owner.offset / kSectionStep)) + half;
         return owner.chain * bins + static_cast<std::size_t>(std::clamp(k, 0, 2 * half));
@@ -92,12 +109,13 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
         return chain.spot == Spot::no || std::fabs(owner.offset) < chain.half_width + kRim;
     };
     for (const Owner& owner : owners)
-        if (counts(owner)) ++first[bin_of(owner) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+        if (counts(owner)) ++picked[bin_of(owner)].count;
+    std::vector<std::size_t> first{0};
+    for (const Picked& p : picked) first.push_back(first.back() + p.size());
+    std::vector<std::size_t> next(first.begin(), first.end() - 1);
     std::vector<float> values(first.back());
     for (std::size_t i = 0; i < owners.size(); ++i) {
-        if (!counts(owners[i])) continue;
+        if (!counts(owners[i]) || !picked[bin_of(owners[i])].take()) continue;
         const Chain& chain = chains[owners[i].chain].chain;
         const std::uint32_t region = chain.kind != ChainKind::step ? regions.at(i)
                                      : owners[i].offset < 0.0f     ? chain.left_region
@@ -113,7 +131,7 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
             float* end = values.data() + first[c * bins + k + 1];
             if (begin == end) continue;
             sections[c].height[k] = trimmed_mean(begin, end);
-            sections[c].weight[k] = static_cast<double>(end - begin);
+            sections[c].weight[k] = picked[c * bins + k].count;
         }
         if (chains[c].chain.kind != ChainKind::step) level_tails(sections[c]);
     }

@@ -105,15 +105,17 @@ class GrowthQueue {
         const std::size_t slot = std::min(slots_.size() - 1, static_cast<std::size_t>(front.cost * kPerUnit));
         slots_[slot].fronts.push_back(front);
         lowest_ = std::min(lowest_, slot);
+        ++count_;
     }
     bool pop(Front& front) {
-        while (lowest_ < slots_.size() && slots_[lowest_].next == slots_[lowest_].fronts.size()) {
+        if (count_ == 0) return false;
+        while (slots_[lowest_].next == slots_[lowest_].fronts.size()) {
             slots_[lowest_].fronts.clear();
             slots_[lowest_].next = 0;
             ++lowest_;
         }
-        if (lowest_ == slots_.size()) return false;
         front = slots_[lowest_].fronts[slots_[lowest_].next++];
+        --count_;
         return true;
     }
 
@@ -124,7 +126,7 @@ class GrowthQueue {
         std::size_t next = 0;
     };
     std::vector<Slot> slots_ = std::vector<Slot>(16384);
-    std::size_t lowest_ = 0;
+    std::size_t lowest_ = 0, count_ = 0;
 };
 
 // The parts of flat texels of one level, those of some size as seeds of regions.
@@ -154,6 +156,44 @@ void place_seeds(const Image& map, const Lattice& lattice, const std::vector<std
     });
 }
 
+// Texels [begin, end) of a row.
+struct Span {
+    int y, begin, end;
+};
+
+std::vector<std::vector<Span>> spans_of(const Parts& parts) {
+    std::vector<std::vector<Span>> spans(parts.count);
+    for_each_run(parts, [&](int y, const Run& run) { spans[run.part].push_back({y, run.begin, run.end}); });
+    return spans;
+}
+
+// Without the cost per step a middle level would creep along every wall that passes its height.
+float growth_cost(float value, double level, int steps) { return std::fabs(value - static_cast<float>(level)) + 0.03f * steps; }
+
+// The texels of `wall` are taken by the regions around them; the queue is left empty.
+void grow_into(const Image& map, const Lattice& lattice, const std::vector<double>& level, const std::vector<Span>& wall,
+               std::vector<std::uint32_t>& label, GrowthQueue& queue) {
+    const auto for_each_neighbour = [&](int x, int y, const auto& visit) {
+        for (int side = 0; side < 4; ++side)
+            if (const int j = lattice.index(x + kSideX[side], y + kSideY[side]); j >= 0) visit(j);
+    };
+    for (const Span& span : wall)
+        for (int x = span.begin; x < span.end; ++x) {
+            const int i = span.y * lattice.width + x;
+            for_each_neighbour(x, span.y, [&](int j) {
+                if (label[j] != kNone) queue.push({growth_cost(map.texels[i], level[label[j]], 1), i, label[j], 2});
+            });
+        }
+    for (GrowthQueue::Front front; queue.pop(front);) {
+        if (label[front.texel] != kNone) continue;
+        label[front.texel] = front.region;
+        for_each_neighbour(front.texel % lattice.width, front.texel / lattice.width, [&](int j) {
+            if (label[j] != kNone) return;
+            queue.push({growth_cost(map.texels[j], level[front.region], front.steps), j, front.region, front.steps + 1});
+        });
+    }
+}
+
 // Connected flat texels of one level are seeds; the rest of the texels are taken by the seed whose level is nearest to
 // their value, nearest texels first, so that two plateaus meet at half height.
 std::vector<std::uint32_t> grow_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
@@ -166,31 +206,15 @@ std::vector<std::uint32_t> grow_regions(const Image& map, const Lattice& lattice
         regions.level.push_back(std::accumulate(map.texels.begin(), map.texels.end(), 0.0) / map.texels.size());
         return label;
     }
-    GrowthQueue queue;
-    const auto push_around = [&](int x, int y, std::uint32_t region, int steps) {
-        for (int side = 0; side < 4; ++side) {
-            const int j = lattice.index(x + kSideX[side], y + kSideY[side]);
-            if (j < 0 || label[j] != kNone) continue;
-            // Without the cost per step a middle level would creep along every wall that passes its height.
-            const float cost = std::fabs(map.texels[j] - static_cast<float>(regions.level[region])) + 0.03f * steps;
-            queue.push({cost, j, region, steps + 1});
-        }
-    };
-    for (int y = 0, i = 0; y < lattice.height; ++y)
-        for (int x = 0; x < lattice.width; ++x, ++i) {
-            if (label[i] != kNone) continue;
-            for (int side = 0; side < 4; ++side) {
-                const int j = lattice.index(x + kSideX[side], y + kSideY[side]);
-                if (j < 0 || label[j] == kNone) continue;
-                const float cost = std::fabs(map.texels[i] - static_cast<float>(regions.level[label[j]])) + 0.03f;
-                queue.push({cost, i, label[j], 2});
-            }
-        }
-    for (GrowthQueue::Front front; queue.pop(front);) {
-        if (label[front.texel] != kNone) continue;
-        label[front.texel] = front.region;
-        push_around(front.texel % lattice.width, front.texel / lattice.width, front.region, front.steps);
-    }
+    // Connected texels without a label are taken from their own rim alone.
+    const Parts walls = find_parts(lattice, false, [&](int x, int y) -> std::uint8_t {
+        return label[static_cast<std::size_t>(y) * lattice.width + x] == kNone;
+    });
+    const std::vector<std::vector<Span>> spans = spans_of(walls);
+    for_each_piece(spans.size(), lattice.threads, [&](std::size_t wall) {
+        thread_local GrowthQueue queue;
+        grow_into(map, lattice, regions.level, spans[wall], label, queue);
+    });
     return label;
 }
 

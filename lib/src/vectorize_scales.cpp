@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "parallel.hpp"
 #include "resolve_curve.hpp"
 
 namespace burin::vectorizing {
@@ -145,6 +146,13 @@ class ScaleFit {
 
     const std::vector<Scale>& scales() const { return scales_; }
     const std::vector<Evidence>& evidence() const { return evidence_; }
+
+    // Squared error with scales 1.
+    double plain_error() const {
+        double sum = 0.0;
+        for (const Sample& s : samples_) sum += std::pow(s.value - profile_.value(s.offset, 1.0), 2.0);
+        return sum;
+    }
 
     // Squared error with scales 1 less that with the scales found.
     double gain() const {
@@ -321,46 +329,60 @@ double total_loss(const std::vector<Scale>& scales, const std::vector<Evidence>&
     return sum;
 }
 
+// The texels that belong to chain c, and to no other.
+std::vector<Sample> take_samples(const FittedChain& fitted, std::uint32_t c, const Course& course, const Image& map,
+                                 const Lattice& lattice, const Regions& regions, const std::vector<Owner>& owners,
+                                 const std::vector<std::uint8_t>& contested, double reach) {
+    std::vector<Sample> samples;
+    for (const Piece& piece : flatten(fitted)) {
+        const double begin = course.begin[piece.element];
+        const double l = course.begin[piece.element + 1] - begin;
+        for_each_texel_of_piece(lattice, piece, reach, [&](int texel, const Place& place) {
+            const Owner& owner = owners[texel];
+            if (owner.chain != c || place.beyond || contested[texel] ||
+                std::fabs(place.offset) > static_cast<double>(owner.distance()) + 1e-5)
+                return;
+            const double t = piece.t0 + (piece.t1 - piece.t0) * place.along;
+            samples.push_back({static_cast<float>((begin + t * l) / course.spacing()), static_cast<float>(place.offset),
+                               map.texels[texel] - static_cast<float>(regions.level[regions.at(texel)])});
+        });
+    }
+    return samples;
+}
+
+void scale_chain(FittedChain& fitted, const Course& course, const BlurredProfile& profile,
+                 const std::vector<Sample>& samples, double least_gain) {
+    ScaleFit fit(course, profile, samples);
+    // Elements with scales take twice the bytes of a plain line: what the map leaves to gain may not be worth that.
+    if (fit.plain_error() <= least_gain * static_cast<double>(fitted.elements.size())) return;
+    fit.run();
+    const double gain = fit.gain();
+    const std::vector<int> knots = choose_knots(fit.scales(), fit.evidence(), course.closed, least_gain);
+    std::vector<Element> elements = divide(fitted, course, fit.scales(), knots);
+    const double kept = gain - total_loss(fit.scales(), fit.evidence(), knots);
+    const double cost = least_gain * (2.0 * elements.size() - fitted.elements.size());
+    if (kept <= cost) return;
+    fitted.elements = std::move(elements);
+    fitted.gain += kept;
+}
+
 }  // namespace
 
 void measure_scales(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map, const Lattice& lattice,
                     const Regions& regions, const std::vector<Owner>& owners, const ScaleOptions& options) {
     const std::vector<BlurredProfile> profiles(set.profiles.begin(), set.profiles.end());
     const std::vector<std::uint8_t> contested = find_contested(chains, profiles, lattice, owners, options.reach);
-    for (std::size_t c = 0; c < chains.size(); ++c) {
+    for_each_piece(chains.size(), lattice.threads, [&](std::size_t c) {
         FittedChain& fitted = chains[c];
-        if (fitted.chain.kind == ChainKind::step || fitted.elements.empty()) continue;
+        if (fitted.chain.kind == ChainKind::step || fitted.elements.empty()) return;
         const BlurredProfile& profile = profiles[fitted.profile];
         const Course course = lay_course(fitted);
-        if (course.length() < 2.0 * kStationSpacing) continue;
+        if (course.length() < 2.0 * kStationSpacing) return;
         const double reach = std::min(options.reach, 1.5 * profile.extent(kFoot) + 2.0);
-        std::vector<Sample> samples;
-        for (const Piece& piece : flatten(fitted)) {
-            const double begin = course.begin[piece.element];
-            const double l = course.begin[piece.element + 1] - begin;
-            for_each_texel_of_piece(lattice, piece, reach, [&](int texel, const Place& place) {
-                const Owner& owner = owners[texel];
-                if (owner.chain != c || place.beyond || contested[texel] ||
-                    place.distance > static_cast<double>(owner.distance) + 1e-5)
-                    return;
-                const double t = piece.t0 + (piece.t1 - piece.t0) * place.along;
-                samples.push_back({static_cast<float>((begin + t * l) / course.spacing()),
-                                   static_cast<float>(place.offset),
-                                   map.texels[texel] - static_cast<float>(regions.level[regions.at(texel)])});
-            });
-        }
-        ScaleFit fit(course, profile, samples);
-        fit.run();
-        const double gain = fit.gain();
-        const std::vector<int> knots = choose_knots(fit.scales(), fit.evidence(), course.closed, options.least_gain);
-        std::vector<Element> elements = divide(fitted, course, fit.scales(), knots);
-        const double kept = gain - total_loss(fit.scales(), fit.evidence(), knots);
-        // Elements with scales take twice the bytes of a plain line.
-        const double cost = options.least_gain * (2.0 * elements.size() - fitted.elements.size());
-        if (kept <= cost) continue;
-        fitted.elements = std::move(elements);
-        fitted.gain += kept;
-    }
+        const std::vector<Sample> samples =
+            take_samples(fitted, static_cast<std::uint32_t>(c), course, map, lattice, regions, owners, contested, reach);
+        scale_chain(fitted, course, profile, samples, options.least_gain);
+    });
 }
 
 }  // namespace burin::vectorizing

@@ -235,24 +235,37 @@ struct Section {
 Section measure_section(const Image& response, const Lattice& lattice, Vec2 p, Vec2 normal, double reach) {
     constexpr double kStep = 0.25;
     const int n = static_cast<int>(std::ceil(reach / kStep));
-    std::vector<float> values(static_cast<std::size_t>(2 * n + 1));
-    for (int k = -n; k <= n; ++k) values[k + n] = sample(response, lattice, p + normal * (k * kStep));
-    int best = n;
-    const int search = std::min(n, static_cast<int>(1.5 / kStep));
-    for (int k = -search; k <= search; ++k)
-        if (values[k + n] > values[best]) best = k + n;
+    const auto value = [&](int k) { return sample(response, lattice, p + normal * (k * kStep)); };
     Section section;
-    section.peak = values[best];
-    const float half = values[best] * 0.5f;
-    int left = best, right = best;
-    while (left > 0 && values[left - 1] > half) --left;
-    while (right < 2 * n && values[right + 1] > half) ++right;
-    if (left == 0 || right == 2 * n || half <= 0.0f) return section;
-    const double a = left - (values[left] - half) / (values[left] - values[left - 1]);
-    const double b = right + (values[right] - half) / (values[right] - values[right + 1]);
+    int best = 0;
+    float peak = value(0);
+    const int search = std::min(n, static_cast<int>(1.5 / kStep));
+    for (int k = -search; k <= search; ++k) {
+        const float v = value(k);
+        if (v > peak) peak = v, best = k;
+    }
+    section.peak = peak;
+    const float half = peak * 0.5f;
+    if (half <= 0.0f) return section;
+    // Where the response falls to half on one side, from the peak outwards.
+    const auto edge = [&](int direction, double& at) {
+        float inside = peak;
+        for (int k = best; std::abs(k) < n;) {
+            k += direction;
+            const float v = value(k);
+            if (!(v > half)) {
+                at = k - direction + direction * (inside - half) / (inside - v);
+                return true;
+            }
+            inside = v;
+        }
+        return false;
+    };
+    double left = 0.0, right = 0.0;
+    if (!edge(-1, left) || !edge(1, right)) return section;
     section.found = true;
-    section.centre = (0.5 * (a + b) - n) * kStep;
-    section.half_width = 0.5 * (b - a) * kStep;
+    section.centre = 0.5 * (left + right) * kStep;
+    section.half_width = 0.5 * (right - left) * kStep;
     return section;
 }
 
@@ -312,13 +325,14 @@ void measure_strand(Strand& strand, const Image& response, const Lattice& lattic
 }  // namespace
 
 void measure_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice) {
-    for (Strand& strand : skeleton.strands) {
-        if (strand.gone) continue;
+    for_each_piece(skeleton.strands.size(), lattice.threads, [&](std::size_t s) {
+        Strand& strand = skeleton.strands[s];
+        if (strand.gone) return;
         double widest = 2.0;
         for (const int node : strand.node)
             if (node >= 0) widest = std::max(widest, skeleton.nodes[node].radius);
         measure_strand(strand, response, lattice, skeleton.nodes, std::max(16.0, 3.0 * widest + 4.0));
-    }
+    });
 }
 
 }  // namespace burin::vectorizing

@@ -1,6 +1,7 @@
 // Spots: bolts, dots, short slots. What is left of the response after lines were taken out, in parts too small for a
 // plateau, becomes a short line each, whose ends carry its profile round.
-#include "vectorize_internal.hpp"
+#include "vectorize_hat.hpp"
+#include "vectorize_parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,40 +13,55 @@ namespace {
 
 constexpr double kLeastShare = 0.8;    // of a part's squares, that its distance from the middle tells
 constexpr double kLeastEnergy = 5e-5;   // of the map's, for one spot
-constexpr int kMostFlat = 12;           // flat texels at its bottom: a plateau has more
+constexpr std::uint32_t kMostFlat = 12;           // flat texels at its bottom: a plateau has more
 constexpr double kMargin = 2.0;         // texels around a part that belong to its spot
 
 struct Part {
     std::vector<Vec2> texels;  // centres, unwrapped
     std::vector<int> index;
-    int flat = 0;
 };
 
-// The parts of a mask, in unwrapped coordinates.
+// The texels of the part that holds texel `first`, in unwrapped coordinates.
+Part collect_part(int first, const std::vector<std::uint8_t>& mask, const Lattice& lattice, std::vector<std::uint8_t>& seen) {
+    Part part;
+    part.texels.push_back({first % lattice.width + 0.5, first / lattice.width + 0.5});
+    part.index.push_back(first);
+    seen[first] = 1;
+    for (std::size_t k = 0; k < part.texels.size(); ++k)
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx) {
+                const Vec2 p = part.texels[k] + Vec2{double(dx), double(dy)};
+                const int j = lattice.index(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
+                if (j < 0 || !mask[j] || seen[j]) continue;
+                seen[j] = 1;
+                part.texels.push_back(p);
+                part.index.push_back(j);
+            }
+    return part;
+}
+
+// The parts of a mask that have a spot's size, and no flat bottom of some size.
 std::vector<Part> collect_parts(const std::vector<std::uint8_t>& mask, const std::vector<std::uint8_t>& flat,
-                                const Lattice& lattice) {
+                                const Lattice& lattice, std::uint32_t most_texels) {
+    constexpr std::uint32_t kLeastTexels = 3;
+    struct Count {
+        std::uint32_t texels = 0, flat = 0;
+        int first = -1;
+    };
+    const auto index_of = [&](int x, int y) { return y * lattice.width + x; };
+    const Parts all = find_parts(lattice, true, [&](int x, int y) { return mask[index_of(x, y)]; });
+    std::vector<Count> counts(all.count);
+    for_each_run(all, [&](int y, const Run& run) {
+        Count& count = counts[run.part];
+        if (count.first < 0) count.first = index_of(run.begin, y);
+        count.texels += static_cast<std::uint32_t>(run.end - run.begin);
+        for (int x = run.begin; x < run.end; ++x) count.flat += flat[index_of(x, y)];
+    });
     std::vector<Part> parts;
     std::vector<std::uint8_t> seen(mask.size(), 0);
-    for (int i = 0; i < lattice.size(); ++i) {
-        if (!mask[i] || seen[i]) continue;
-        Part part;
-        part.texels.push_back({i % lattice.width + 0.5, i / lattice.width + 0.5});
-        part.index.push_back(i);
-        seen[i] = 1;
-        for (std::size_t k = 0; k < part.texels.size(); ++k) {
-            part.flat += flat[part.index[k]];
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const Vec2 p = part.texels[k] + Vec2{double(dx), double(dy)};
-                    const int j = lattice.index(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
-                    if (j < 0 || !mask[j] || seen[j]) continue;
-                    seen[j] = 1;
-                    part.texels.push_back(p);
-                    part.index.push_back(j);
-                }
-        }
-        parts.push_back(std::move(part));
-    }
+    for (const Count& count : counts)
+        if (count.flat <= kMostFlat && count.texels >= kLeastTexels && count.texels <= most_texels)
+            parts.push_back(collect_part(count.first, mask, lattice, seen));
     return parts;
 }
 
@@ -203,12 +219,13 @@ std::optional<Chain> make_spot(const Part& part, const Image& response, const La
 std::vector<Chain> trace_spots(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
                                double energy) {
     const int r = square_radius(radius);
-    const Image response = hat_response(map, lattice, kind, r);
-    const std::vector<std::uint8_t> mask = strong_mask(response, lattice, std::max(4, r / 3), least_response(noise));
+    const double least = least_response(noise);
+    const Image response = hat_response(map, lattice, kind, r, least);
+    const std::vector<std::uint8_t> mask = strong_mask(response, lattice, std::max(4, r / 3), least);
     const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
     std::vector<Chain> spots;
-    for (const Part& part : collect_parts(mask, find_flat(map, lattice, noise), lattice)) {
-        if (part.flat > kMostFlat || part.texels.size() < 3 || part.texels.size() > std::size_t(4 * r * r)) continue;
+    const std::uint32_t most_texels = 4u * static_cast<std::uint32_t>(r * r);
+    for (const Part& part : collect_parts(mask, find_flat(map, lattice, noise), lattice, most_texels)) {
         std::optional<Chain> spot = make_spot(part, response, lattice, kind, 1.6 * r, kLeastEnergy * energy);
         if (!spot || !on_level_ground(part, map, lattice, spot->contrast)) continue;
         for (const int texel : texels_around(part, lattice)) map.texels[texel] += sign * response.texels[texel];

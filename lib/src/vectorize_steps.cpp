@@ -22,8 +22,8 @@ struct Corner {
 
 class BorderTracer {
   public:
-    BorderTracer(const Image& map, const Lattice& lattice, const Regions& regions)
-        : map_(map), lattice_(lattice), regions_(regions),
+    BorderTracer(const Image& map, const Changed& changed, const Lattice& lattice, const Regions& regions)
+        : map_(map), changed_(changed), lattice_(lattice), regions_(regions),
           columns_(lattice.wrap ? lattice.width : lattice.width + 1),
           rows_(lattice.wrap ? lattice.height : lattice.height + 1),
           corners_(static_cast<std::size_t>(columns_) * rows_, 0) {
@@ -112,13 +112,20 @@ class BorderTracer {
         corners_[slot(next)] |= static_cast<std::uint8_t>(16 << ((dir + 2) % 4));
     }
 
+    float value_at(Corner texel) const {
+        const int i = lattice_.nearest(texel.x, texel.y);
+        const auto found = std::lower_bound(changed_.begin(), changed_.end(), i,
+                                            [](const ChangedTexel& c, int index) { return c.texel < index; });
+        return found != changed_.end() && found->texel == i ? found->value : map_.texels[i];
+    }
+
     // Where the map passes half height between the texels beside an edge; where it does not, because a speck or a third
     // level disturbs it, near the texel that is nearer to half height. A point never leaves its own edge, so that
     // contours neither cross themselves nor each other.
     Vec2 crossing(Corner a, Corner b) const {
         const double half = 0.5 * (regions_.level[label(a.x, a.y)] + regions_.level[label(b.x, b.y)]);
-        const double va = map_.texels[lattice_.nearest(a.x, a.y)] - half;
-        const double vb = map_.texels[lattice_.nearest(b.x, b.y)] - half;
+        const double va = value_at(a) - half;
+        const double vb = value_at(b) - half;
         double t = std::fabs(va) < std::fabs(vb) ? 0.02 : 0.98;
         if (va * vb < 0.0) t = std::clamp(va / (va - vb), 0.02, 0.98);
         return {a.x + 0.5 + t * (b.x - a.x), a.y + 0.5 + t * (b.y - a.y)};
@@ -207,6 +214,7 @@ class BorderTracer {
     }
 
     const Image& map_;
+    const Changed& changed_;
     const Lattice& lattice_;
     const Regions& regions_;
     int columns_, rows_;
@@ -215,8 +223,8 @@ class BorderTracer {
 
 }  // namespace
 
-std::vector<Chain> trace_steps(const Image& map, const Lattice& lattice, const Regions& regions) {
-    return BorderTracer(map, lattice, regions).trace();
+std::vector<Chain> trace_steps(const Image& map, const Changed& changed, const Lattice& lattice, const Regions& regions) {
+    return BorderTracer(map, changed, lattice, regions).trace();
 }
 
 }  // namespace burin::vectorizing

@@ -15,8 +15,10 @@ namespace {
 constexpr int kAroundX[8] = {0, 1, 1, 1, 0, -1, -1, -1};
 constexpr int kAroundY[8] = {-1, -1, 0, 1, 1, 1, 0, -1};
 
-// Bits of a mask's texel besides those of Mask: the texel is to be looked at in the even or in the odd sub-iterations.
+// Bits of a mask's texel besides those of Mask: the texel is to be looked at in the even or in the odd sub-iterations; it
+// lies at the map's border.
 constexpr std::uint8_t kListed[2] = {16, 32};
+constexpr std::uint8_t kBorder = 64;
 
 // Whether a texel whose neighbours are the bits of `around` can go without breaking or shortening a line.
 constexpr bool can_remove(unsigned around, bool even) {
@@ -49,6 +51,13 @@ class Thinner {
 
     void run(const Parts& parts) {
         for_each_run(parts, [&](int y, const Run& run) {
+            std::uint8_t* row = &mask_[static_cast<std::size_t>(y) * lattice_.width];
+            if (y == 0 || y + 1 == lattice_.height)
+                for (int x = run.begin; x < run.end; ++x) row[x] |= kBorder;
+            if (run.begin == 0) row[0] |= kBorder;
+            if (run.end == lattice_.width) row[lattice_.width - 1] |= kBorder;
+        });
+        for_each_run(parts, [&](int y, const Run& run) {
             for (int x = run.begin; x < run.end; ++x) {
                 const int i = y * lattice_.width + x;
                 if ((mask_[i] & Mask::thin) && neighbours(i) != 255u) list(i);
@@ -60,13 +69,18 @@ class Thinner {
   private:
     template <typename Visit>
     void for_each_neighbour(int i, const Visit& visit) const {
-        const int x = i % lattice_.width, y = i / lattice_.width;
-        const bool inside = x > 0 && y > 0 && x + 1 < lattice_.width && y + 1 < lattice_.height;
-        for (int k = 0; k < 8; ++k) visit(k, inside ? i + step_[k] : lattice_.index(x + kAroundX[k], y + kAroundY[k]));
+        if (!(mask_[i] & kBorder)) {
+            for (int k = 0; k < 8; ++k) visit(k, i + step_[k]);
+            return;
+        }
+        for (int k = 0; k < 8; ++k) {
+            const int j = lattice_.index(i % lattice_.width + kAroundX[k], i / lattice_.width + kAroundY[k]);
+            if (j >= 0) visit(k, j);
+        }
     }
     unsigned neighbours(int i) const {
         unsigned around = 0;
-        for_each_neighbour(i, [&](int k, int j) { around |= j >= 0 && (mask_[j] & Mask::thin) ? 1u << k : 0u; });
+        for_each_neighbour(i, [&](int k, int j) { around |= (mask_[j] & Mask::thin) ? 1u << k : 0u; });
         return around;
     }
     void list(int i) {
@@ -92,7 +106,7 @@ class Thinner {
         for (const std::vector<int>& some : gone)
             for (const int i : some)
                 for_each_neighbour(i, [&](int, int j) {
-                    if (j >= 0 && (mask_[j] & Mask::thin)) list(j);
+                    if (mask_[j] & Mask::thin) list(j);
                 });
     }
 
