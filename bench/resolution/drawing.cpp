@@ -10,6 +10,13 @@ Vec2 on_circle(Vec2 centre, double radius, double angle) {
     return centre + Vec2{std::cos(angle), std::sin(angle)} * radius;
 }
 
+// Linear between values at equal steps of [0, 1].
+double between(const std::vector<double>& values, double share) {
+    const double place = share * static_cast<double>(values.size() - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(place), values.size() - 1);
+    return i + 1 < values.size() ? std::lerp(values[i], values[i + 1], place - static_cast<double>(i)) : values[i];
+}
+
 }  // namespace
 
 Stroke& Stroke::line(Vec2 to) {
@@ -47,14 +54,17 @@ Stroke& Stroke::close() {
     return *this;
 }
 
-Stroke& Stroke::taper(double width_from, double width_to, double height_from, double height_to) {
+Stroke& Stroke::close_across() {
+    closed_ = true;
+    return *this;
+}
+
+Stroke& Stroke::taper(const std::vector<double>& widths, const std::vector<double>& heights) {
     const double count = static_cast<double>(elements_.size());
     for (std::size_t i = 0; i < elements_.size(); ++i) {
-        const double a = static_cast<double>(i) / count, b = static_cast<double>(i + 1) / count;
-        elements_[i].width0 = std::lerp(width_from, width_to, a);
-        elements_[i].width1 = std::lerp(width_from, width_to, b);
-        elements_[i].height0 = std::lerp(height_from, height_to, a);
-        elements_[i].height1 = std::lerp(height_from, height_to, b);
+        const double from = static_cast<double>(i) / count, to = static_cast<double>(i + 1) / count;
+        elements_[i].width0 = between(widths, from), elements_[i].width1 = between(widths, to);
+        elements_[i].height0 = between(heights, from), elements_[i].height1 = between(heights, to);
     }
     return *this;
 }
@@ -94,14 +104,6 @@ Stroke slab(Vec2 centre, Vec2 half, double radius, double angle) {
         stroke.arc(corners[i], radius, from, from + kQuarter);
     }
     return stroke.close();
-}
-
-Stroke reversed(const Stroke& stroke) {
-    const std::vector<Element>& elements = stroke.elements();
-    Stroke out(elements.back().p2);
-    for (auto e = elements.rbegin(); e != elements.rend(); ++e)
-        e->kind == ElementKind::line ? out.line(e->p0) : out.quadratic(e->p1, e->p0);
-    return stroke.closed() ? out.close() : out;
 }
 
 Drawing::Drawing(int texels, double wall, double ground, Wrap wrap) : texel_(1.0 / texels), ramp_(0.5 * wall / texels) {

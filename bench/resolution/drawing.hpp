@@ -28,8 +28,10 @@ class Stroke {
     Stroke& quadratic(Vec2 control, Vec2 to);
     // Ends at the very start, by a line where the chain has not come back to it.
     Stroke& close();
-    // Width and height scale run linearly from the chain's start to its end, by element count.
-    Stroke& taper(double width_from, double width_to, double height_from = 1.0, double height_to = 1.0);
+    // Ends where it began, one or more tiles on: for sheets that repeat.
+    Stroke& close_across();
+    // Scales of width and height along the chain: at its start, at equal steps by element count, at its end.
+    Stroke& taper(const std::vector<double>& widths, const std::vector<double>& heights = {1.0});
     // Scaled, then turned by `angle`, then moved by `shift`.
     Stroke placed(double scale, double angle, Vec2 shift) const;
 
@@ -47,8 +49,6 @@ Stroke arc(Vec2 centre, double radius, double from, double to);
 Stroke circle(Vec2 centre, double radius);
 // A rectangle with round corners, turned by `angle`; clockwise on screen, so its inside is to the right.
 Stroke slab(Vec2 centre, Vec2 half, double radius, double angle);
-// The same way back: what was inside is to the left.
-Stroke reversed(const Stroke& stroke);
 
 // What a stroke is drawn with.
 struct Pen {
