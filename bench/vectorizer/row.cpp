@@ -48,6 +48,17 @@ std::string marked(const std::string& text, const Figure& figure) { return figur
 
 std::string tally(const Tally& t) { return formatted("%d/%d/%d", t.authored, t.recovered, t.matched); }
 
+void print_details(const Row& row, const Details& details) {
+    static const char* const kKinds[kNodeKinds] = {"end", "corner", "tee", "crossing", "wye", "star"};
+    for (std::size_t i = 0; i < row.contour.spots.size() && i < static_cast<std::size_t>(details.spots); ++i)
+        std::printf("    %.0f, %.0f: %.1f %% of the mean square\n", row.contour.spots[i].corner.x, row.contour.spots[i].corner.y,
+                    100.0 * row.contour.spots[i].share);
+    for (const Miss& miss : row.structure.misses)
+        if (details.misses)
+            std::printf("    %s %s at %.1f, %.1f\n", miss.authored ? "missed" : "false", miss.path ? "path" : kKinds[static_cast<int>(miss.kind)],
+                        miss.place.x, miss.place.y);
+}
+
 double median(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
     return values[values.size() / 2];
@@ -98,7 +109,7 @@ void print_head() {
     std::fflush(stdout);
 }
 
-void print_row(const Row& row, int spots) {
+void print_row(const Row& row, const Details& details) {
     const std::vector<Figure> f = figures_of(row);
     std::printf("| %s | %s | %s | %s | %s | %.2f | %.2f %% | %s | %s |", row.subject.c_str(), text_of(row.wall).c_str(),
                 name_of(row.damage), marked(formatted("%.4f", row.contour.rms), f[kContour]).c_str(),
@@ -111,9 +122,7 @@ void print_row(const Row& row, int spots) {
                 marked(formatted("%.0f %%", row.structure.percent()), f[kMissing]).c_str(), row.explained, row.texture_bytes,
                 marked(formatted("%.0f", 1.0 / f[kSize].value), f[kSize]).c_str(), row.elements, row.seconds, row.worst.x,
                 row.worst.y);
-    for (std::size_t i = 0; i < row.contour.spots.size() && i < static_cast<std::size_t>(spots); ++i)
-        std::printf("    %.0f, %.0f: %.1f %% of the mean square\n", row.contour.spots[i].corner.x, row.contour.spots[i].corner.y,
-                    100.0 * row.contour.spots[i].share);
+    print_details(row, details);
 }
 
 void print_summary(const std::vector<Row>& rows) {

@@ -31,9 +31,16 @@ const char* name_of(Damage damage);
 // "2", "0.4".
 std::string text_of(double wall);
 
+// What is listed below a row: how many of the places that add most to the contours' mean square, and what of the
+// structure does not match.
+struct Details {
+    int spots = 0;
+    bool misses = false;
+};
+
 // A figure that misses its bound is followed by an exclamation mark.
 void print_head();
-void print_row(const Row& row, int spots);
+void print_row(const Row& row, const Details& details);
 
 // Per wall and damage: median, worst, and how many patterns reach each figure.
 void print_summary(const std::vector<Row>& rows);

@@ -39,6 +39,33 @@ Strand sampled(const Path& path, const Profile& profile, double scale) {
     return strand;
 }
 
+// The runs of a strand's points that lie on the sheet: outside it nothing acts. Where a run leaves the sheet it ends on
+// the border.
+void add_inside(const Strand& strand, double side, std::vector<Strand>& out) {
+    const auto inside = [side](Vec2 p) { return p.x >= 0.0 && p.x <= side && p.y >= 0.0 && p.y <= side; };
+    const auto on_sheet = [side](Vec2 p) { return Vec2{std::clamp(p.x, 0.0, side), std::clamp(p.y, 0.0, side)}; };
+    if (std::all_of(strand.points.begin(), strand.points.end(), inside)) return out.push_back(strand);
+    // A closed strand is walked from a point outside on, so that no run goes over its first point.
+    std::vector<Vec2> points = strand.points;
+    if (strand.closed) {
+        std::rotate(points.begin(), std::find_if_not(points.begin(), points.end(), inside), points.end());
+        points.push_back(points.front());
+    }
+    Strand run{{}, false, strand.step};
+    const auto finish = [&] {
+        if (run.points.size() > 1) out.push_back(run);
+        run.points.clear();
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool here = inside(points[i]);
+        const bool neighbour = (i > 0 && inside(points[i - 1])) || (i + 1 < points.size() && inside(points[i + 1]));
+        if (here || neighbour) run.points.push_back(on_sheet(points[i]));
+        if (!here && i > 0 && inside(points[i - 1])) finish(), run.points = {on_sheet(points[i])};
+        if (!here && !neighbour) run.points.clear();
+    }
+    finish();
+}
+
 // Joints of one path that turn.
 void add_kinks(const Path& path, double scale, std::vector<Vec2>& places) {
     const std::size_t count = path.elements.size();
@@ -177,13 +204,12 @@ class Builder {
         const double scale = sheet.side / pattern.size.x;
         for (const Path& path : pattern.paths) {
             if (path.elements.empty()) continue;
-            strands_.push_back(sampled(path, pattern.profiles[path.profile], scale));
             add_kinks(path, scale, places_);
-            if (!path.closed) {
-                places_.push_back(strands_.back().points.front());
-                places_.push_back(strands_.back().points.back());
-            }
+            const Strand strand = sampled(path, pattern.profiles[path.profile], scale);
+            sheet.repeats ? strands_.push_back(strand) : add_inside(strand, sheet.side, strands_);
         }
+        for (const Strand& strand : strands_)
+            if (!strand.closed) places_.insert(places_.end(), {strand.points.front(), strand.points.back()});
     }
 
     Skeleton build() {
@@ -200,6 +226,7 @@ class Builder {
   private:
     void add_node(const SampleIndex& index, Vec2 place) {
         std::vector<Visit> visits = visits_at(index, place);
+        if (visits.empty()) return;  // outside the sheet
         std::vector<Vec2> arms;
         for (Visit& visit : visits) {
             for (const int forward : {0, 1}) {

@@ -29,45 +29,70 @@ Overlap overlap_of(const std::vector<Strand>& from, const SampleIndex& to) {
     return overlap;
 }
 
-Tally match_strands(const std::vector<Strand>& authored, const std::vector<Strand>& recovered, const Sheet& sheet) {
-    Tally tally{static_cast<int>(authored.size()), static_cast<int>(recovered.size()), 0};
+// Pairs taken one to one; what is left over becomes misses.
+class Matching {
+  public:
+    Matching(std::size_t authored, std::size_t recovered) : authored_(authored, false), recovered_(recovered, false) {}
+
+    void take(std::size_t authored, std::size_t recovered) {
+        if (authored_[authored] || recovered_[recovered]) return;
+        authored_[authored] = recovered_[recovered] = true;
+        ++matched_;
+    }
+    template <typename ToMiss>
+    Tally finish(ToMiss to_miss, std::vector<Miss>& misses) const {
+        for (std::size_t i = 0; i < authored_.size(); ++i)
+            if (!authored_[i]) misses.push_back(to_miss(true, i));
+        for (std::size_t i = 0; i < recovered_.size(); ++i)
+            if (!recovered_[i]) misses.push_back(to_miss(false, i));
+        return {static_cast<int>(authored_.size()), static_cast<int>(recovered_.size()), matched_};
+    }
+
+  private:
+    std::vector<bool> authored_, recovered_;
+    int matched_ = 0;
+};
+
+Tally match_strands(const std::vector<Strand>& authored, const std::vector<Strand>& recovered, const Sheet& sheet,
+                    std::vector<Miss>& misses) {
     const Overlap there = overlap_of(authored, SampleIndex(recovered, sheet));
     const Overlap back = overlap_of(recovered, SampleIndex(authored, sheet));
-    std::set<std::size_t> used_authored, used_recovered;
+    Matching matching(authored.size(), recovered.size());
     for (const auto& [pair, share] : there) {
         const auto reverse = back.find({pair.second, pair.first});
-        if (share < kShare || reverse == back.end() || reverse->second < kShare) continue;
-        if (used_authored.contains(pair.first) || used_recovered.contains(pair.second)) continue;
-        used_authored.insert(pair.first), used_recovered.insert(pair.second);
-        ++tally.matched;
+        if (share >= kShare && reverse != back.end() && reverse->second >= kShare) matching.take(pair.first, pair.second);
     }
-    return tally;
+    const auto to_miss = [&](bool from_authored, std::size_t i) {
+        const std::vector<Vec2>& points = (from_authored ? authored : recovered)[i].points;
+        return Miss{from_authored, true, NodeKind::end, points[points.size() / 2]};
+    };
+    return matching.finish(to_miss, misses);
 }
 
-Tally match_nodes(const std::vector<Node>& authored, const std::vector<Node>& recovered, NodeKind kind, const Sheet& sheet) {
-    Tally tally;
+std::vector<Vec2> places_of(const std::vector<Node>& nodes, NodeKind kind) {
+    std::vector<Vec2> places;
+    for (const Node& node : nodes)
+        if (node.kind == kind) places.push_back(node.place);
+    return places;
+}
+
+Tally match_nodes(const Skeleton& authored, const Skeleton& recovered, NodeKind kind, const Sheet& sheet,
+                  std::vector<Miss>& misses) {
     struct Pair {
         double distance;
         std::size_t authored, recovered;
     };
-    std::vector<Pair> pairs;
+    const std::vector<Vec2> a = places_of(authored.nodes, kind), r = places_of(recovered.nodes, kind);
     const double near = kind == NodeKind::end ? kEndNear : kNodeNear;
-    for (std::size_t i = 0; i < authored.size(); ++i)
-        for (std::size_t j = 0; j < recovered.size(); ++j) {
-            const double distance = sheet.distance(authored[i].place, recovered[j].place);
-            if (authored[i].kind == kind && recovered[j].kind == kind && distance <= near) pairs.push_back({distance, i, j});
-        }
-    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
-    std::set<std::size_t> used_authored, used_recovered;
-    for (const Pair& pair : pairs) {
-        if (used_authored.contains(pair.authored) || used_recovered.contains(pair.recovered)) continue;
-        used_authored.insert(pair.authored), used_recovered.insert(pair.recovered);
-        ++tally.matched;
-    }
-    const auto of_kind = [kind](const Node& node) { return node.kind == kind; };
-    tally.authored = static_cast<int>(std::count_if(authored.begin(), authored.end(), of_kind));
-    tally.recovered = static_cast<int>(std::count_if(recovered.begin(), recovered.end(), of_kind));
-    return tally;
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t j = 0; j < r.size(); ++j)
+            if (const double distance = sheet.distance(a[i], r[j]); distance <= near) pairs.push_back({distance, i, j});
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.distance < q.distance; });
+    Matching matching(a.size(), r.size());
+    for (const Pair& pair : pairs) matching.take(pair.authored, pair.recovered);
+    const auto to_miss = [&](bool from_authored, std::size_t i) { return Miss{from_authored, false, kind, (from_authored ? a : r)[i]}; };
+    return matching.finish(to_miss, misses);
 }
 
 Tally sum(Tally a, Tally b) {
@@ -92,8 +117,9 @@ StructureScore compare_structure(const Pattern& authored, const Pattern& recover
     const Sheet sheet{static_cast<double>(texels), authored.wrap == Wrap::repeat};
     const Skeleton a = skeleton_of(authored, sheet), r = skeleton_of(recovered, sheet);
     StructureScore score;
-    score.paths = match_strands(a.strands, r.strands, sheet);
-    for (int k = 0; k < kNodeKinds; ++k) score.nodes[k] = match_nodes(a.nodes, r.nodes, static_cast<NodeKind>(k), sheet);
+    score.paths = match_strands(a.strands, r.strands, sheet, score.misses);
+    for (int k = 0; k < kNodeKinds; ++k)
+        score.nodes[k] = match_nodes(a, r, static_cast<NodeKind>(k), sheet, score.misses);
     return score;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include <burin/pattern.hpp>
 
@@ -14,9 +15,18 @@ struct Tally {
 enum class NodeKind { end, corner, tee, cross, wye, star };  // star: any other meeting of three or more
 inline constexpr int kNodeKinds = 6;
 
+// What one pattern has and the other has not.
+struct Miss {
+    bool authored = true;      // false: recovered, and not authored
+    bool path = true;          // its middle; else a node of `kind`
+    NodeKind kind = NodeKind::end;
+    Vec2 place;
+};
+
 struct StructureScore {
     Tally paths;
     std::array<Tally, kNodeKinds> nodes;  // by NodeKind
+    std::vector<Miss> misses;
 
     Tally ends() const { return nodes[0]; }
     Tally junctions() const;  // all other kinds

@@ -2,11 +2,12 @@
 // of quality 85. Prints a Markdown table of contours, heights, sizes and structure, and a summary.
 //
 //     vectorizer [--only NAME,NAME] [--walls 2|0.4] [--damage 16|8|jpeg] [--zoom 2048] [--jobs N]
-//                [--worst-pictures FOLDER] [--spots N] [--patterns FOLDER]
+//                [--worst-pictures FOLDER] [--spots N] [--misses yes] [--patterns FOLDER]
 //
 // --zoom: side of the surfaces that level lines are drawn from. --jobs: maps worked on at a time, each on one thread.
 // --worst-pictures: a close-up per row of the 16 x 16 texels that add most to the contours' mean square: true lines green,
-// ours red, paths blue. --spots: how many such places each row lists. --patterns: writes the maps there and does no more.
+// ours red, paths blue. --spots: how many such places are listed below each row. --misses yes: what of the structure does
+// not match is listed too. --patterns: writes the maps there and does no more.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -34,7 +35,8 @@ struct Options {
     std::vector<std::string> only;
     std::vector<double> walls{2.0, 0.4};
     std::vector<Damage> damages{Damage::sixteen_bit, Damage::eight_bit, Damage::jpeg};
-    int zoom = 2048, jobs = 2, spots = 0;
+    int zoom = 2048, jobs = 2;
+    Details details;
     std::string pictures, patterns;
 };
 
@@ -132,12 +134,13 @@ Options read_options(int argc, char** argv) {
         else if (name == "--damage") options.damages = {damage_of(value)};
         else if (name == "--zoom") options.zoom = std::atoi(value);
         else if (name == "--jobs") options.jobs = std::atoi(value);
-        else if (name == "--spots") options.spots = std::atoi(value);
+        else if (name == "--spots") options.details.spots = std::atoi(value);
+        else if (name == "--misses") options.details.misses = std::string(value) == "yes";
         else if (name == "--worst-pictures") options.pictures = value;
         else if (name == "--patterns") options.patterns = value;
         else refuse("unknown option " + name);
     }
-    if (options.zoom < kPatternTexels || options.zoom > 16384) refuse("--zoom lies between 512 and 16384");
+    if (options.zoom < 4 * kPatternTexels || options.zoom > 32 * kPatternTexels) refuse("--zoom lies between 2048 and 16384");
     if (options.jobs < 1) refuse("--jobs is 1 or more");
     for (const std::string& name : options.only)
         if (std::none_of(subjects().begin(), subjects().end(), [&](const Subject& s) { return s.name == name; }))
@@ -159,14 +162,14 @@ struct Task {
 // Rows appear in the order of the tasks, as soon as all before them are done.
 class Table {
   public:
-    Table(std::vector<Task>& tasks, int spots) : tasks_(tasks), spots_(spots) { print_head(); }
+    Table(std::vector<Task>& tasks, const Details& details) : tasks_(tasks), details_(details) { print_head(); }
 
     void finish(Task& task, std::vector<Row> rows) {
         const std::lock_guard lock(mutex_);
         task.rows = std::move(rows);
         task.done = true;
         for (; next_ < tasks_.size() && tasks_[next_].done; ++next_)
-            for (const Row& row : tasks_[next_].rows) print_row(row, spots_);
+            for (const Row& row : tasks_[next_].rows) print_row(row, details_);
         std::fflush(stdout);
     }
 
@@ -174,7 +177,7 @@ class Table {
     std::vector<Task>& tasks_;
     std::mutex mutex_;
     std::size_t next_ = 0;
-    int spots_;
+    Details details_;
 };
 
 std::string temporary_folder() {
@@ -202,7 +205,7 @@ int run(const Options& options) {
         for (const Subject& subject : subjects())
             if (wanted(options, subject)) tasks.push_back({&subject, wall, {}, false});
     if (!options.pictures.empty()) std::filesystem::create_directories(options.pictures);
-    Table table(tasks, options.spots);
+    Table table(tasks, options.details);
     std::atomic<std::size_t> next{0};
     std::vector<std::thread> threads;
     for (int i = 0; i < options.jobs; ++i) threads.emplace_back([&] { work(options, tasks, next, table); });
