@@ -1,6 +1,6 @@
 # Sourced by quickstart.sh and test.sh: installs what is missing of cmake/packages.txt, and says so.
 #
-#     install_packages GROUP...      groups: build, test
+#     install_packages GROUP...      groups: build, test, bench
 
 # Packages of the groups named that are not installed, one a line.
 missing_packages() {

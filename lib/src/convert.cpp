@@ -153,17 +153,17 @@ Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, cons
     return candidate;
 }
 
-// Vectorizes with ever fewer elements until the textures keep to the budget.
-Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+// Vectorizes with ever fewer elements until the textures keep to the budget. `detail`: the map, or what of it to trace.
+Result<Candidate> trace_within(const HeightMap& detail, const HeightMap& map, const ConvertOptions& options, std::size_t budget,
                                const Progress& progress, StageClock& clock) {
     VectorizeOptions vectorize = options.vectorize;
     vectorize.threads = options.threads;
     if (!clock.begin("vectorize")) return stopped();
-    const auto traced = trace_map(map, vectorize, progress);
+    const auto traced = trace_map(detail, vectorize, progress);
     if (!traced) return traced.error();
     for (int attempt = 0;; ++attempt) {
         if (!clock.begin("vectorize")) return stopped();
-        auto fitted = fit_traced_map(*traced, map, vectorize, progress);
+        auto fitted = fit_traced_map(*traced, detail, vectorize, progress);
         if (!fitted) return fitted.error();
         auto candidate = pack_and_measure(std::move(*fitted), map, options, budget, clock);
         if (!candidate) return candidate.error();
@@ -173,6 +173,24 @@ Result<Candidate> trace_within(const HeightMap& map, const ConvertOptions& optio
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
         vectorize.most_elements = std::max(16, static_cast<int>(most * 0.85 * static_cast<double>(budget) / bytes));
     }
+}
+
+// The map as it is, or without its soft ground where that explains more: whether a ramp is ground or the side of a wide
+// bevel shows when its paths are drawn. `map` becomes what was traced.
+Result<Candidate> trace_best(HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                             const Progress& progress, StageClock& clock) {
+    constexpr double kLeastDeviation = 0.004, kMustGain = 0.002;
+    auto candidate = trace_within(map, map, options, budget, progress, clock);
+    if (!candidate) return candidate;
+    if (!clock.begin("vectorize")) return stopped();
+    auto separated = separate_ground(map, options.vectorize);
+    if (!separated) return separated.error();
+    if (separated->deviation < kLeastDeviation) return candidate;
+    auto other = trace_within(separated->detail, map, options, budget, progress, clock);
+    if (!other) return other;
+    if (other->stats.explained < candidate->stats.explained + kMustGain) return candidate;
+    map = std::move(separated->detail);
+    return other;
 }
 
 // A step of the refinement looks at every texel within reach of every element: wide profiles on long paths would take
@@ -198,7 +216,8 @@ Unrefined reason_not_to_refine(const Candidate& candidate, const HeightMap& map,
 }
 
 // Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
-Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options,
+// `traced`: what the candidate was traced in, see trace_best.
+Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& traced, const HeightMap& map, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
     candidate.stats.unrefined = reason_not_to_refine(candidate, map, options);
     if (candidate.stats.unrefined != Unrefined::no) return candidate;
@@ -207,7 +226,7 @@ Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& map, co
     RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
     Vectorized refined = candidate.traced;
-    if (!refine_pattern(refined.pattern, map.image, refinement)) return candidate;
+    if (!refine_pattern(refined.pattern, traced.image, refinement)) return candidate;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
     if (!better || better->stats.explained < candidate.stats.explained) return candidate;
     return better;
@@ -232,10 +251,11 @@ Result<Converted> convert_map(const HeightMap& map, const Model& model, const Co
     StageClock clock(progress, seconds);
     const std::size_t budget = options.max_texture_bytes > 0 ? options.max_texture_bytes
                                                              : default_budget(map.image.texels.size());
-    auto candidate = trace_within(map, options, budget, progress, clock);
+    HeightMap traced = map;
+    auto candidate = trace_best(traced, options, budget, progress, clock);
     const double traced_explained = candidate ? candidate->stats.explained : 0.0;
     if (candidate) candidate = without_accidents(std::move(*candidate), map, options, budget, clock);
-    if (candidate) candidate = refine_candidate(std::move(*candidate), map, options, budget, clock);
+    if (candidate) candidate = refine_candidate(std::move(*candidate), traced, map, options, budget, clock);
     if (!candidate) return candidate.error();
 
     if (!clock.begin("bake")) return stopped();

@@ -61,7 +61,8 @@ void find_features(const Image& source, Traced& traced) {
     const double radius = std::clamp(0.02 * std::min(lattice.width, lattice.height), 6.0, 24.0);
     // A line along the border of a map that does not tile is half outside: a mirrored margin makes it whole.
     const int margin = lattice.wrap ? 0 : static_cast<int>(radius) + 8;
-    const Lattice wide{lattice.width + 2 * margin, lattice.height + 2 * margin, lattice.wrap};
+    const Lattice wide{lattice.width + 2 * margin, lattice.height + 2 * margin, lattice.wrap,
+                       lattice.threads};
     Image map = mirror_margin(source, margin);
     std::vector<Chain> grooves, ridges;
     Image with_grooves = map, with_ridges = map;  // without the lines of the other kind
@@ -86,8 +87,8 @@ void find_features(const Image& source, Traced& traced) {
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
     traced.flattened = crop_margin(map, margin, lattice);
-    traced.flat = find_flat(traced.flattened, lattice, noise);
-    traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy, traced.flat);
+    const std::vector<std::uint8_t> flat = find_flat(traced.flattened, lattice, noise);
+    traced.regions = segment_regions(traced.flattened, lattice, noise, kLeastRegionShare * energy, flat);
     traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
 }
 
@@ -104,8 +105,8 @@ std::vector<FittedChain> join(std::vector<FittedChain> a, std::vector<FittedChai
 
 // A curve that follows the grain of a ragged edge costs an element every few texels: first the fit is loosened, then
 // the least regions are given up, until the steps leave room for lines.
-std::vector<FittedChain> fit_within(Traced& traced, const Image& map, const VectorizeOptions& options,
-                                    std::size_t budget, Vectorized& result, int threads) {
+std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, const VectorizeOptions& options,
+                                    std::size_t budget, Regions& regions, Vectorized& result, int threads) {
     const Lattice& lattice = traced.lattice;
     const double energy = traced.energy;
     double share = kLeastRegionShare;
@@ -115,6 +116,7 @@ std::vector<FittedChain> fit_within(Traced& traced, const Image& map, const Vect
     // Polylines are fast and tell how many elements to expect; the curves, which need fewer, are fitted once at the end.
     const std::size_t most = budget * 5 / 4;
     std::size_t lines = count_lines(traced.lines, result.tolerance), steps = count_lines(traced.steps, result.tolerance);
+    std::vector<Chain> fewer_steps;
     while (options.tolerance == 0.0 && lines + steps > most && result.tolerance * 1.4 <= loosest) {
         result.tolerance *= 1.4;
         lines = count_lines(traced.lines, result.tolerance);
@@ -122,14 +124,15 @@ std::vector<FittedChain> fit_within(Traced& traced, const Image& map, const Vect
     }
     for (int round = 0; round < 8 && steps > most * 3 / 4; ++round) {
         share *= 2.0;
-        const std::size_t regions = traced.regions.level.size();
-        merge_regions(traced.flattened, lattice, result.noise, share * energy, traced.flat, traced.regions);
-        if (traced.regions.level.size() == regions) continue;
-        traced.steps = trace_steps(traced.flattened, lattice, traced.regions);
-        steps = count_lines(traced.steps, result.tolerance);
+        const std::size_t before = regions.level.size();
+        merge_regions(result.noise, share * energy, regions);
+        if (regions.level.size() == before) continue;
+        fewer_steps = trace_steps(traced.flattened, lattice, regions);
+        steps = count_lines(fewer_steps, result.tolerance);
     }
+    const bool merged = regions.level.size() < traced.regions.level.size();
     return join(fit_chains(traced.lines, map, lattice, result.tolerance, threads),
-                fit_chains(traced.steps, map, lattice, result.tolerance, threads));
+                fit_chains(merged ? fewer_steps : traced.steps, map, lattice, result.tolerance, threads));
 }
 
 // Lines that explain little per element go, the least useful first, until the rest is within the budget. Steps hold the
@@ -183,7 +186,7 @@ Path make_path(const FittedChain& fitted, const Units& units, const Regions& reg
     std::uint32_t region = fitted.chain.left_region;
     if (fitted.chain.kind != ChainKind::step) {
         const Vec2 p = fitted.chain.points[fitted.chain.points.size() / 2];
-        region = regions.label[lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))];
+        region = regions.at(lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))));
     }
     path.level = units.level(regions.level[region]);
     return path;
@@ -258,6 +261,7 @@ int thread_count(const VectorizeOptions& options) {
 ProfileOptions profile_options(const Traced& traced) {
     ProfileOptions options;
     options.noise = traced.noise;
+    options.least_gain = 1e-5 * traced.energy;
     options.reach = std::clamp(0.06 * std::min(traced.lattice.width, traced.lattice.height), 8.0, 64.0);
     options.most_profiles = static_cast<std::size_t>(std::clamp(traced.lattice.size() / 4096, 16, 400));
     return options;
@@ -267,12 +271,32 @@ Error stopped() { return {ErrorCode::invalid_argument, "vectorize: stopped by th
 
 }  // namespace
 
+Result<SoftGround> separate_ground(const HeightMap& map, const VectorizeOptions& options) {
+    const Status checked = check_options(map, options);
+    if (!checked) return checked.error();
+    const Wrap wrap = choose_wrap(map.image, options.wrap);
+    const Lattice lattice{map.image.width, map.image.height, wrap == Wrap::repeat};
+    const Image ground = soft_ground(map.image, lattice, estimate_noise(map.image, lattice));
+    SoftGround separated{map, 0.0};
+    double square = 0.0;
+    float highest = 1.0f;
+    for (std::size_t i = 0; i < ground.texels.size(); ++i) {
+        square += static_cast<double>(ground.texels[i]) * ground.texels[i];
+        separated.detail.image.texels[i] -= ground.texels[i];
+        highest = std::max(highest, separated.detail.image.texels[i]);
+    }
+    // Where the ground was low the rest would stick out of the object surface: all of it goes down.
+    for (float& value : separated.detail.image.texels) value = std::max(0.0f, value - (highest - 1.0f));
+    separated.deviation = std::sqrt(square / static_cast<double>(ground.texels.size()));
+    return separated;
+}
+
 Result<TracedMap> trace_map(const HeightMap& map, const VectorizeOptions& options, const Progress& progress) {
     const Status checked = check_options(map, options);
     if (!checked) return checked.error();
     const Wrap wrap = choose_wrap(map.image, options.wrap);
     auto traced = std::make_shared<Traced>();
-    traced->lattice = {map.image.width, map.image.height, wrap == Wrap::repeat};
+    traced->lattice = {map.image.width, map.image.height, wrap == Wrap::repeat, thread_count(options)};
     traced->noise = estimate_noise(map.image, traced->lattice);
     traced->energy = total_energy(map.image, wrap);
     if (progress && !progress("vectorize", 0.05)) return stopped();
@@ -286,20 +310,21 @@ Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, 
     if (!checked) return checked.error();
     const auto proceed = [&](double fraction) { return !progress || progress("vectorize", fraction); };
     if (!proceed(0.4)) return stopped();
-    Traced traced = *found.found;  // regions are merged and levels settled to fit the budget
+    const Traced& traced = *found.found;
+    Regions regions = traced.regions;  // merged to fit the budget, and their levels settled
     const Lattice& lattice = traced.lattice;
     Vectorized result;
     result.noise = traced.noise;
     result.energy = traced.energy;
     const std::size_t budget = element_budget(lattice, options);
-    std::vector<FittedChain> fitted = fit_within(traced, map.image, options, budget, result, thread_count(options));
+    std::vector<FittedChain> fitted = fit_within(traced, map.image, options, budget, regions, result, thread_count(options));
     untangle_steps(fitted, lattice, result.tolerance);
     if (!proceed(0.6)) return stopped();
-    const ProfileSet set = measure_profiles(fitted, map.image, lattice, traced.regions, profile_options(traced));
+    const ProfileSet set = measure_profiles(fitted, map.image, lattice, regions, profile_options(traced));
     drop_useless(fitted, traced.energy, budget);
     if (!proceed(0.8)) return stopped();
     const Wrap wrap = lattice.wrap ? Wrap::repeat : Wrap::clamp;
-    result.pattern = make_pattern(fitted, set, traced.regions, lattice, options, wrap);
+    result.pattern = make_pattern(fitted, set, regions, lattice, options, wrap);
     for (const FittedChain& f : fitted) result.path_length_texels += f.length;
     return result;
 }

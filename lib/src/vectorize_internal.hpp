@@ -1,8 +1,12 @@
 // Shared by the parts of stage vectorize. Lengths are texels, heights map values 0..1, unless a name says otherwise.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <burin/geometry.hpp>
@@ -16,6 +20,7 @@ struct Lattice {
     int width = 0;
     int height = 0;
     bool wrap = false;
+    int threads = 1;  // that walk over it at a time; no result depends on it
 
     static int modulo(int a, int n) {
         const int m = a % n;
@@ -66,11 +71,33 @@ struct Chain {
     Vec2 winding;                                     // p(end) - p(start) of a closed chain: a multiple of the tile
 };
 
-// Labels of the map's plateaus.
+// The map's plateaus. Every texel is of a part; regions are made of parts, and grow by being joined.
 struct Regions {
-    std::vector<std::uint32_t> label;  // per texel
-    std::vector<double> level;         // per region
-    std::vector<std::uint32_t> area;   // texels, per region
+    // Summed height differences from a few texels before a border to a few behind it, and from farther away on both sides:
+    // a large map may show its walls softer than a small one.
+    struct Border {
+        double near = 0.0, far = 0.0;
+        int length = 0;
+
+        // The greater of both means, seen upwards from the lower region to the higher one.
+        double jump(double gap) const { return std::max(gap < 0 ? -near : near, gap < 0 ? -far : far) / length; }
+    };
+    // Over the texels of a region.
+    struct Sum {
+        double value = 0.0, weight = 0.0;
+        std::uint32_t area = 0;
+
+        void add(const Sum& more) { value += more.value, weight += more.weight, area += more.area; }
+    };
+
+    std::shared_ptr<const std::vector<std::uint32_t>> part;  // per texel
+    std::vector<std::uint32_t> region_of;                    // per part
+    std::vector<double> level;                               // per region
+    std::vector<std::uint32_t> area;                         // texels, per region
+    std::vector<Sum> sum;                                    // per region
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Border> borders;  // from the lower number to the higher
+
+    std::uint32_t at(std::size_t texel) const { return region_of[(*part)[texel]]; }
 };
 
 // All that was found in a map.
@@ -79,10 +106,12 @@ struct Traced {
     double noise = 0.0;   // see Vectorized
     double energy = 0.0;
     std::vector<Chain> lines, steps;
-    Image flattened;                 // the map without the lines
-    std::vector<std::uint8_t> flat;  // per texel of it, see find_flat
+    Image flattened;  // the map without the lines
     Regions regions;
 };
+
+// Ramps and vignettes of the map, whose mean is 0: what is gentler than walls and wider than detail.
+Image soft_ground(const Image& map, const Lattice& lattice, double noise);
 
 // The map with a margin that mirrors it, and back.
 Image mirror_margin(const Image& map, int margin);
@@ -94,12 +123,6 @@ std::vector<Chain> clip_chains(const std::vector<Chain>& chains, int margin, con
 
 // Standard deviation of the map's grain, robust against edges.
 double estimate_noise(const Image& map, const Lattice& lattice);
-
-// Exact Euclidean distance of every texel with mask != 0 to the nearest texel with mask == 0.
-std::vector<float> distance_inside(const std::vector<std::uint8_t>& mask, const Lattice& lattice);
-
-// Thins a mask to lines one texel wide that keep its topology.
-void thin_mask(std::vector<std::uint8_t>& mask, const Lattice& lattice);
 
 // Lines narrower than twice `radius` texels are looked for; below `widest`, only those on level ground far to both sides.
 struct LineScale {
@@ -134,14 +157,18 @@ void extend_to_lines(std::vector<Chain>& chains, const Image& response, const La
 // Sum of squared responses: how much of the map is grooves (or ridges) narrower than twice `radius`.
 double line_energy(const Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise);
 
-// Plateaus, and the step contours between them. Regions whose sum of squares against a neighbour is below
-// `least_energy` join it; merge_regions does that with a greater one to regions that exist. `flat`: 1 for texels of flat
-// ground, where the values around differ by no more than the grain explains.
+// 1 for texels of flat ground, where the values around differ by no more than the grain explains.
 std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, double noise);
+
+// Plateaus. Regions whose sum of squares against a neighbour is below `least_energy` join it; merge_regions does that with
+// a greater one to regions that exist. measure_regions fills all but `part` for regions that are labelled 0 .. level.size().
 Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
                         const std::vector<std::uint8_t>& flat);
-void merge_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
-                   const std::vector<std::uint8_t>& flat, Regions& regions);
+void measure_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
+                     const std::vector<std::uint32_t>& label, Regions& regions);
+void merge_regions(double noise, double least_energy, Regions& regions);
+
+// The step contours between regions.
 std::vector<Chain> trace_steps(const Image& map, const Lattice& lattice, const Regions& regions);
 
 }  // namespace burin::vectorizing

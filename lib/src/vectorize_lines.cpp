@@ -56,30 +56,29 @@ std::vector<std::uint8_t> strong_mask(const Image& response, const Lattice& latt
     return mask;
 }
 
-// Drops connected parts whose area or summed response is that of a speck.
-void drop_specks(std::vector<std::uint8_t>& mask, const Image& response, const Lattice& lattice, double least_energy) {
-    std::vector<std::uint8_t> seen(mask.size(), 0);
-    std::vector<int> part;
-    for (int i = 0; i < lattice.size(); ++i) {
-        if (!mask[i] || seen[i]) continue;
-        part.assign(1, i);
-        seen[i] = 1;
-        double energy = 0.0;
-        for (std::size_t k = 0; k < part.size(); ++k) {
-            const int x = part[k] % lattice.width, y = part[k] / lattice.width;
-            energy += response.texels[part[k]] * response.texels[part[k]];
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const int j = lattice.index(x + dx, y + dy);
-                    if (j >= 0 && mask[j] && !seen[j]) {
-                        seen[j] = 1;
-                        part.push_back(j);
-                    }
-                }
-        }
-        if (part.size() < 8 || energy < least_energy)
-            for (const int j : part) mask[j] = 0;
-    }
+// The connected parts of a mask, without those whose area or summed response is that of a speck.
+Parts find_shapes(std::vector<std::uint8_t>& mask, const Image& response, const Lattice& lattice, double least_energy) {
+    const auto row_of = [&](auto& texels, int y) { return &texels[static_cast<std::size_t>(y) * lattice.width]; };
+    Parts parts = find_parts(lattice, true, [&](int x, int y) { return row_of(mask, y)[x]; });
+    std::vector<std::uint32_t> area(parts.count, 0);
+    std::vector<double> energy(parts.count, 0.0);
+    for_each_run(parts, [&](int y, const Run& run) {
+        area[run.part] += static_cast<std::uint32_t>(run.end - run.begin);
+        for (int x = run.begin; x < run.end; ++x) energy[run.part] += row_of(response.texels, y)[x] * row_of(response.texels, y)[x];
+    });
+    Parts kept;
+    kept.count = parts.count;
+    kept.row_start.assign(parts.row_start.size(), 0);
+    for_each_run(parts, [&](int y, const Run& run) {
+        const bool speck = area[run.part] < 8 || energy[run.part] < least_energy;
+        std::fill(row_of(mask, y) + run.begin, row_of(mask, y) + run.end, speck ? 0 : Mask::shape | Mask::thin);
+        if (speck) return;
+        kept.runs.push_back(run);
+        kept.row_start[static_cast<std::size_t>(y) + 1] = kept.runs.size();
+    });
+    for (std::size_t y = 1; y < kept.row_start.size(); ++y)
+        kept.row_start[y] = std::max(kept.row_start[y], kept.row_start[y - 1]);
+    return kept;
 }
 
 // Calls visit(point, normal) about once a texel along the chain.
@@ -239,31 +238,6 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
     return false;
 }
 
-// Connected parts of a mask: their number per texel, -1 outside.
-std::vector<std::int32_t> label_parts(const std::vector<std::uint8_t>& mask, const Lattice& lattice) {
-    std::vector<std::int32_t> part(mask.size(), -1);
-    std::vector<int> stack;
-    std::int32_t count = 0;
-    for (int i = 0; i < lattice.size(); ++i) {
-        if (!mask[i] || part[i] >= 0) continue;
-        part[i] = count;
-        stack.assign(1, i);
-        while (!stack.empty()) {
-            const int x = stack.back() % lattice.width, y = stack.back() / lattice.width;
-            stack.pop_back();
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const int j = lattice.index(x + dx, y + dy);
-                    if (j < 0 || !mask[j] || part[j] >= 0) continue;
-                    part[j] = count;
-                    stack.push_back(j);
-                }
-        }
-        ++count;
-    }
-    return part;
-}
-
 double least_response(double noise) { return std::max(4.0 * noise, 0.012); }
 
 int square_radius(double radius) { return std::max(2, static_cast<int>(std::lround(radius))); }
@@ -351,29 +325,38 @@ std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map
 }
 
 // A letter of broad strokes is lines as a whole or an area as a whole: where the bands of its lines are not what the mask
-// shows, because strokes are missing or swell and taper, all its broad lines go. `part`: see label_parts.
-void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::int32_t>& part, const Lattice& lattice) {
+// shows, because strokes are missing or swell and taper, all its broad lines go.
+void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::uint8_t>& mask, const Parts& parts,
+                         const Lattice& lattice) {
     constexpr double kBroadStroke = 2.5, kMostMismatch = 0.1;
     // 1: within a line's band, a texel of doubt included; 2: well within it.
-    std::vector<std::uint8_t> band(part.size(), 0);
+    std::vector<std::uint8_t> band(mask.size(), 0);
+    const auto part_at = [&](int texel) {
+        const std::size_t run = parts.find(texel % lattice.width, texel / lattice.width);
+        return mask[texel] ? static_cast<std::int32_t>(parts.runs[run].part) : -1;
+    };
     std::vector<std::int32_t> part_of(chains.size(), -1);
     for (std::size_t c = 0; c < chains.size(); ++c)
         for_each_place(chains[c], [&](Vec2 p, Vec2) {
             const double half_width = chains[c].half_width;
             for_each_texel_near(p, lattice, static_cast<int>(std::ceil(half_width + 1.0)), [&](int texel, Vec2 centre) {
                 const double distance = length(centre - p);
-                if (part_of[c] < 0 && distance < 1.0) part_of[c] = part[texel];
+                if (part_of[c] < 0 && distance < 1.0) part_of[c] = part_at(texel);
                 if (distance > half_width + 1.0) return;
                 band[texel] = std::max<std::uint8_t>(band[texel], distance < half_width - 1.0 ? 2 : 1);
             });
         });
     std::map<std::int32_t, std::pair<double, double>> area;  // of the mask; of what differs
-    for (std::size_t i = 0; i < part.size(); ++i)
-        if (part[i] >= 0) area[part[i]].first += 1.0, area[part[i]].second += band[i] == 0;
+    for_each_run(parts, [&](int y, const Run& run) {
+        const auto row = band.begin() + static_cast<std::ptrdiff_t>(y) * lattice.width;
+        auto& [whole, different] = area[static_cast<std::int32_t>(run.part)];
+        whole += run.end - run.begin;
+        different += static_cast<double>(std::count(row + run.begin, row + run.end, 0));
+    });
     for (std::size_t c = 0; c < chains.size(); ++c)
         for_each_place(chains[c], [&](Vec2 p, Vec2) {
             for_each_texel_near(p, lattice, static_cast<int>(std::ceil(chains[c].half_width)), [&](int texel, Vec2) {
-                if (band[texel] != 2 || part[texel] >= 0 || part_of[c] < 0) return;
+                if (band[texel] != 2 || mask[texel] || part_of[c] < 0) return;
                 band[texel] = 0;
                 area[part_of[c]].second += 1.0;
             });
@@ -468,16 +451,15 @@ std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& l
     const double least = least_response(noise);
     // A wide window would hide a shallow line where it comes near a deep one.
     std::vector<std::uint8_t> mask = strong_mask(response, lattice, std::max(4, r / 3), least);
-    drop_specks(mask, response, lattice, 24.0 * least * least);
-    const std::vector<std::int32_t> part = label_parts(mask, lattice);
-    const std::vector<float> thickness = distance_inside(mask, lattice);
-    thin_mask(mask, lattice);
-    Skeleton skeleton = trace_skeleton(mask, thickness, lattice);
+    const Parts parts = find_shapes(mask, response, lattice, 24.0 * least * least);
+    if (parts.runs.empty()) return {};
+    thin_mask(mask, parts, lattice);
+    Skeleton skeleton = trace_skeleton(mask, parts, lattice);
     const Image whole = hat_response(intact, lattice, kind, r);
     measure_strands(skeleton, whole, lattice);
     const std::vector<Chain> all = join_strands(skeleton, whole, lattice, kind);
     std::vector<Chain> chains = keep_lines(all, map, lattice, noise, 2e-5 * energy, scale);
-    if (scale.radius == scale.widest) drop_partial_shapes(chains, part, lattice);
+    if (scale.radius == scale.widest) drop_partial_shapes(chains, mask, parts, lattice);
     const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
     const std::vector<std::uint8_t> erased = erase_lines(map, response, lattice, chains, owner, kind);
     if (scale.radius < scale.widest) erase_crossings(map, lattice, owner, erased, kind, scale);

@@ -1,5 +1,7 @@
 // Which chain every texel belongs to, and the mean section of each chain.
 #include "vectorize_profiles.hpp"
+#include "vectorize_owners.hpp"
+#include "vectorize_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,94 +14,6 @@
 
 namespace burin::vectorizing {
 namespace {
-
-constexpr std::uint32_t kNobody = 0xffffffffu;
-
-// The nearest chain of a texel, and the signed offset from it.
-struct Owner {
-    float distance = 1e9f;
-    float offset = 0.0f;
-    std::uint32_t chain = kNobody;
-    bool beyond = false;  // past an open end, where the section does not hold
-};
-
-struct Piece {
-    Vec2 a, b;
-    bool first = false, last = false;  // at an open end of the chain
-};
-
-std::vector<Piece> flatten(const FittedChain& fitted) {
-    std::vector<Piece> pieces;
-    for (const Element& e : fitted.elements) {
-        int n = 1;
-        if (e.kind == ElementKind::quadratic) {
-            const double bend = length(e.p0 - 2.0 * e.p1 + e.p2);
-            n = std::clamp(static_cast<int>(std::ceil(std::sqrt(bend / (4.0 * 0.02)))), 1, 64);
-        }
-        for (int k = 0; k < n; ++k)
-            pieces.push_back({point_at(e, double(k) / n), point_at(e, double(k + 1) / n), false, false});
-    }
-    if (!fitted.chain.closed && !pieces.empty()) {
-        pieces.front().first = true;
-        pieces.back().last = true;
-    }
-    return pieces;
-}
-
-void claim_piece(std::vector<Owner>& owners, const Lattice& lattice, const Piece& piece, std::uint32_t chain,
-                 double reach) {
-    const Vec2 d = piece.b - piece.a;
-    const double l = length(d);
-    if (l == 0.0) return;
-    const Vec2 t = d * (1.0 / l), n = normal_of(t);
-    const int y0 = static_cast<int>(std::floor(std::min(piece.a.y, piece.b.y) - reach));
-    const int y1 = static_cast<int>(std::ceil(std::max(piece.a.y, piece.b.y) + reach));
-    for (int y = y0; y <= y1; ++y) {
-        // Columns of this row within reach of the piece: its box would be wasteful for long diagonals.
-        double low = 1e300, high = -1e300;
-        const double ya = y + 0.5 - reach, yb = y + 0.5 + reach;
-        for (const double s : {0.0, 1.0}) {
-            const Vec2 p = piece.a + d * s;
-            if (p.y >= ya && p.y <= yb) {
-                low = std::min(low, p.x);
-                high = std::max(high, p.x);
-            }
-        }
-        if (d.y != 0.0)
-            for (const double edge : {ya, yb}) {
-                const double s = (edge - piece.a.y) / d.y;
-                if (s < 0.0 || s > 1.0) continue;
-                low = std::min(low, piece.a.x + d.x * s);
-                high = std::max(high, piece.a.x + d.x * s);
-            }
-        if (low > high) continue;
-        const int x0 = static_cast<int>(std::floor(low - reach)), x1 = static_cast<int>(std::ceil(high + reach));
-        for (int x = x0; x <= x1; ++x) {
-            const int i = lattice.index(x, y);
-            if (i < 0) continue;
-            const Vec2 q = Vec2{x + 0.5, y + 0.5} - piece.a;
-            const double along = dot(q, t), across = dot(q, n);
-            const double past = along < 0.0 ? -along : along > l ? along - l : 0.0;
-            const double square = past * past + across * across;
-            Owner& owner = owners[i];
-            const double limit = std::min(reach, static_cast<double>(owner.distance));
-            if (square >= limit * limit) continue;
-            const double distance = std::sqrt(square);
-            owner.distance = static_cast<float>(distance);
-            owner.chain = chain;
-            owner.offset = static_cast<float>(past > 0.0 ? (across < 0.0 ? -distance : distance) : across);
-            owner.beyond = past > 0.25 && ((along < 0.0 && piece.first) || (along > l && piece.last));
-        }
-    }
-}
-
-std::vector<Owner> find_owners(const std::vector<FittedChain>& chains, const Lattice& lattice, double reach) {
-    std::vector<Owner> owners(static_cast<std::size_t>(lattice.size()));
-    for (std::size_t c = 0; c < chains.size(); ++c)
-        for (const Piece& piece : flatten(chains[c]))
-            claim_piece(owners, lattice, piece, static_cast<std::uint32_t>(c), reach);
-    return owners;
-}
 
 // Mean of the middle 60 %: texels of crossing lines and specks do not count.
 double trimmed_mean(float* first, float* last) {
@@ -115,12 +29,12 @@ void settle_levels(Regions& regions, const Image& map, const std::vector<Owner>&
     const std::size_t count = regions.level.size();
     std::vector<float> furthest(count, 0.0f);
     for (std::size_t i = 0; i < owners.size(); ++i) {
-        float& f = furthest[regions.label[i]];
+        float& f = furthest[regions.at(i)];
         f = std::max(f, std::min(owners[i].distance, static_cast<float>(reach)));
     }
     std::vector<std::vector<float>> values(count);
     for (std::size_t i = 0; i < owners.size(); ++i) {
-        const std::uint32_t r = regions.label[i];
+        const std::uint32_t r = regions.at(i);
         if (owners[i].distance >= 0.6f * furthest[r]) values[r].push_back(map.texels[i]);
     }
     for (std::size_t r = 0; r < count; ++r)
@@ -142,7 +56,7 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
         const int k = static_cast<int>(std::lround(owner.offset / kSectionStep)) + half;
         return owner.chain * bins + static_cast<std::size_t>(std::clamp(k, 0, 2 * half));
     };
-    const auto counts = [](const Owner& owner) { return owner.chain != kNobody && !owner.beyond; };
+    const auto counts = [](const Owner& owner) { return owner.chain != kNoChain && !owner.beyond; };
     for (const Owner& owner : owners)
         if (counts(owner)) ++first[bin_of(owner) + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
@@ -151,7 +65,7 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
     for (std::size_t i = 0; i < owners.size(); ++i) {
         if (!counts(owners[i])) continue;
         const Chain& chain = chains[owners[i].chain].chain;
-        const std::uint32_t region = chain.kind != ChainKind::step ? regions.label[i]
+        const std::uint32_t region = chain.kind != ChainKind::step ? regions.at(i)
                                      : owners[i].offset < 0.0f     ? chain.left_region
                                                                    : chain.right_region;
         values[next[bin_of(owners[i])]++] = map.texels[i] - static_cast<float>(regions.level[region]);
@@ -309,13 +223,13 @@ double value_at(const Profile& profile, double b, bool& inside) {
 void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map,
                    const std::vector<Owner>& owners, const Regions& regions) {
     for (std::size_t i = 0; i < owners.size(); ++i) {
-        if (owners[i].chain == kNobody) continue;
+        if (owners[i].chain == kNoChain) continue;
         FittedChain& fitted = chains[owners[i].chain];
         if (fitted.chain.kind == ChainKind::step) continue;
         bool inside = false;
         const double h = value_at(set.profiles[fitted.profile], owners[i].offset, inside);
         if (!inside || owners[i].beyond) continue;
-        const double d = map.texels[i] - regions.level[regions.label[i]];
+        const double d = map.texels[i] - regions.level[regions.at(i)];
         fitted.gain += d * d - (d - h) * (d - h);
     }
 }
@@ -344,13 +258,15 @@ ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, 
         std::vector<std::uint8_t> reversed;
         clusters = cluster_sections(chains, sections, regions, closeness, options.noise, reversed);
         for (Owner& owner : owners)
-            if (owner.chain != kNobody && reversed[owner.chain]) owner.offset = -owner.offset;
+            if (owner.chain != kNoChain && reversed[owner.chain]) owner.offset = -owner.offset;
         if (clusters.size() <= options.most_profiles) break;
     }
     for (const Cluster& cluster : clusters)
         set.profiles.push_back(fit_profile(cluster.section.height, cluster.section.weight, cluster.step, options.noise));
     for (FittedChain& fitted : chains) fitted.gain = 0.0;
     measure_gains(chains, set, map, owners, regions);
+    measure_scales(chains, set, map, lattice, regions, owners,
+                   {options.reach, options.noise, options.least_gain});
     return set;
 }
 

@@ -25,6 +25,7 @@ struct ProfileOptions {
     double reach = 32.0;     // texels to each side over which sections are looked at
     double noise = 0.0;
     std::size_t most_profiles = 256;
+    double least_gain = 0.0;  // squared height error that an element with scales has to take away
 };
 
 // Settles the level of every region from its texels far from any chain, measures all sections, shares them between

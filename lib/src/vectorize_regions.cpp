@@ -1,12 +1,10 @@
 // Plateaus: levels of the map, seeds on flat ground, growth over the walls to half height, and no border without an edge.
-#include "vectorize_internal.hpp"
+#include "vectorize_parts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <queue>
 
 namespace burin::vectorizing {
 namespace {
@@ -75,203 +73,152 @@ std::vector<double> choose_levels(const Histogram& histogram, int most_levels) {
     return result;
 }
 
-int nearest_level(const std::vector<double>& levels, double value) {
-    int best = 0;
-    for (std::size_t k = 1; k < levels.size(); ++k)
-        if (std::fabs(levels[k] - value) < std::fabs(levels[best] - value)) best = static_cast<int>(k);
-    return best;
-}
+// Index of the level nearest to a value.
+class LevelFinder {
+  public:
+    explicit LevelFinder(const std::vector<double>& levels) : levels_(levels) {}
+    int operator()(float value) const {
+        int best = 0;
+        for (std::size_t k = 1; k < levels_.size() && value > 0.5 * (levels_[k - 1] + levels_[k]); ++k)
+            best = static_cast<int>(k);
+        return best;
+    }
+
+  private:
+    const std::vector<double>& levels_;  // rising
+};
 
 constexpr int kSideX[4] = {1, -1, 0, 0};
 constexpr int kSideY[4] = {0, 0, 1, -1};
 
+// Texels still to be taken, cheapest first; equal costs in the order in which they came.
+class GrowthQueue {
+  public:
+    struct Front {
+        float cost = 0.0f;
+        int texel = 0;
+        std::uint32_t region = 0;
+        int steps = 0;
+    };
+
+    void push(const Front& front) {
+        const std::size_t slot = std::min(slots_.size() - 1, static_cast<std::size_t>(front.cost * kPerUnit));
+        slots_[slot].fronts.push_back(front);
+        lowest_ = std::min(lowest_, slot);
+    }
+    bool pop(Front& front) {
+        while (lowest_ < slots_.size() && slots_[lowest_].next == slots_[lowest_].fronts.size()) {
+            slots_[lowest_].fronts.clear();
+            slots_[lowest_].next = 0;
+            ++lowest_;
+        }
+        if (lowest_ == slots_.size()) return false;
+        front = slots_[lowest_].fronts[slots_[lowest_].next++];
+        return true;
+    }
+
+  private:
+    static constexpr float kPerUnit = 2048.0f;  // costs closer than that are equal
+    struct Slot {
+        std::vector<Front> fronts;
+        std::size_t next = 0;
+    };
+    std::vector<Slot> slots_ = std::vector<Slot>(16384);
+    std::size_t lowest_ = 0;
+};
+
+// The parts of flat texels of one level, those of some size as seeds of regions.
+void place_seeds(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
+                 const std::vector<double>& levels, std::uint32_t least_area, Regions& regions,
+                 std::vector<std::uint32_t>& label) {
+    const LevelFinder level_of(levels);
+    const Parts parts = find_parts(lattice, false, [&](int x, int y) -> std::uint8_t {
+        const std::size_t i = static_cast<std::size_t>(y) * lattice.width + x;
+        return flat[i] ? static_cast<std::uint8_t>(1 + level_of(map.texels[i])) : 0;
+    });
+    std::vector<double> sum(parts.count, 0.0);
+    std::vector<std::uint32_t> area(parts.count, 0), number(parts.count, kNone);
+    for_each_run(parts, [&](int y, const Run& run) {
+        const float* row = &map.texels[static_cast<std::size_t>(y) * lattice.width];
+        sum[run.part] = std::accumulate(row + run.begin, row + run.end, sum[run.part]);
+        area[run.part] += static_cast<std::uint32_t>(run.end - run.begin);
+    });
+    for (std::uint32_t p = 0; p < parts.count; ++p) {
+        if (area[p] < least_area) continue;
+        number[p] = static_cast<std::uint32_t>(regions.level.size());
+        regions.level.push_back(sum[p] / area[p]);
+    }
+    for_each_run(parts, [&](int y, const Run& run) {
+        std::uint32_t* row = &label[static_cast<std::size_t>(y) * lattice.width];
+        std::fill(row + run.begin, row + run.end, number[run.part]);
+    });
+}
+
 // Connected flat texels of one level are seeds; the rest of the texels are taken by the seed whose level is nearest to
 // their value, nearest texels first, so that two plateaus meet at half height.
-Regions grow_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
-                     const std::vector<double>& levels, int least_area) {
-    Regions regions;
-    regions.label.assign(map.texels.size(), kNone);
-    std::vector<std::uint8_t> seen(map.texels.size(), 0);
-    std::vector<int> part;
-    for (int i = 0; i < lattice.size(); ++i) {
-        if (!flat[i] || seen[i]) continue;
-        const int level = nearest_level(levels, map.texels[i]);
-        part.assign(1, i);
-        seen[i] = 1;
-        double sum = 0.0;
-        for (std::size_t k = 0; k < part.size(); ++k) {
-            sum += map.texels[part[k]];
-            for (int side = 0; side < 4; ++side) {
-                const int j = lattice.index(part[k] % lattice.width + kSideX[side], part[k] / lattice.width + kSideY[side]);
-                if (j < 0 || seen[j] || !flat[j] || nearest_level(levels, map.texels[j]) != level) continue;
-                seen[j] = 1;
-                part.push_back(j);
-            }
-        }
-        if (static_cast<int>(part.size()) < least_area) continue;
-        for (const int j : part) regions.label[j] = static_cast<std::uint32_t>(regions.level.size());
-        regions.level.push_back(sum / static_cast<double>(part.size()));
-    }
+std::vector<std::uint32_t> grow_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
+                                        const std::vector<double>& levels, Regions& regions) {
+    constexpr std::uint32_t kLeastArea = 6;
+    std::vector<std::uint32_t> label(map.texels.size(), kNone);
+    place_seeds(map, lattice, flat, levels, kLeastArea, regions, label);
     if (regions.level.empty()) {
-        regions.label.assign(map.texels.size(), 0);
+        label.assign(map.texels.size(), 0);
         regions.level.push_back(std::accumulate(map.texels.begin(), map.texels.end(), 0.0) / map.texels.size());
-        return regions;
+        return label;
     }
-    struct Front {
-        float cost;
-        int texel;
-        std::uint32_t region;
-        int steps;
-        bool operator>(const Front& o) const {
-            return cost != o.cost ? cost > o.cost : texel != o.texel ? texel > o.texel : region > o.region;
-        }
-    };
-    std::priority_queue<Front, std::vector<Front>, std::greater<>> queue;
-    const auto push_around = [&](int i, std::uint32_t region, int steps) {
+    GrowthQueue queue;
+    const auto push_around = [&](int x, int y, std::uint32_t region, int steps) {
         for (int side = 0; side < 4; ++side) {
-            const int j = lattice.index(i % lattice.width + kSideX[side], i / lattice.width + kSideY[side]);
-            if (j < 0 || regions.label[j] != kNone) continue;
+            const int j = lattice.index(x + kSideX[side], y + kSideY[side]);
+            if (j < 0 || label[j] != kNone) continue;
             // Without the cost per step a middle level would creep along every wall that passes its height.
             const float cost = std::fabs(map.texels[j] - static_cast<float>(regions.level[region])) + 0.03f * steps;
             queue.push({cost, j, region, steps + 1});
         }
     };
-    for (int i = 0; i < lattice.size(); ++i)
-        if (regions.label[i] != kNone) push_around(i, regions.label[i], 1);
-    while (!queue.empty()) {
-        const Front front = queue.top();
-        queue.pop();
-        if (regions.label[front.texel] != kNone) continue;
-        regions.label[front.texel] = front.region;
-        push_around(front.texel, front.region, front.steps);
-    }
-    return regions;
-}
-
-// Summed height differences from a few texels before the border to a few behind it, and from farther away on both sides:
-// a large map may show its walls softer than a small one.
-struct Border {
-    double near = 0.0, far = 0.0;
-    int length = 0;
-
-    // The greater of both means, seen upwards from the lower region to the higher one.
-    double jump(double gap) const { return std::max(gap < 0 ? -near : near, gap < 0 ? -far : far) / length; }
-};
-
-using Borders = std::map<std::pair<std::uint32_t, std::uint32_t>, Border>;
-
-Borders measure_borders(const Image& map, const Lattice& lattice, const Regions& regions) {
-    Borders borders;
-    const int far = std::clamp(std::min(lattice.width, lattice.height) / 512, 3, 24);
-    for (int y = 0; y < lattice.height; ++y)
-        for (int x = 0; x < lattice.width; ++x)
-            for (int side = 0; side < 4; side += 2) {
-                const int dx = kSideX[side], dy = kSideY[side];
-                const int j = lattice.index(x + dx, y + dy);
-                if (j < 0) continue;
-                std::uint32_t a = regions.label[lattice.index(x, y)], b = regions.label[j];
-                if (a == b) continue;
-                const auto jump_at = [&](int reach) {
-                    return map.texels[lattice.nearest(x + (reach + 1) * dx, y + (reach + 1) * dy)] -
-                           map.texels[lattice.nearest(x - reach * dx, y - reach * dy)];
-                };
-                const double sign = a > b ? -1.0 : 1.0;
-                if (a > b) std::swap(a, b);
-                Border& border = borders[{a, b}];
-                border.near += sign * jump_at(3);
-                if (far > 3) border.far += sign * jump_at(far);
-                ++border.length;
+    for (int y = 0, i = 0; y < lattice.height; ++y)
+        for (int x = 0; x < lattice.width; ++x, ++i) {
+            if (label[i] != kNone) continue;
+            for (int side = 0; side < 4; ++side) {
+                const int j = lattice.index(x + kSideX[side], y + kSideY[side]);
+                if (j < 0 || label[j] == kNone) continue;
+                const float cost = std::fabs(map.texels[i] - static_cast<float>(regions.level[label[j]])) + 0.03f;
+                queue.push({cost, i, label[j], 2});
             }
-    return borders;
-}
-
-void recompute_levels(const Image& map, Regions& regions, const std::vector<std::uint8_t>& flat) {
-    std::vector<double> sum(regions.level.size(), 0.0), count(regions.level.size(), 0.0);
-    regions.area.assign(regions.level.size(), 0);
-    for (std::size_t i = 0; i < regions.label.size(); ++i) {
-        const double weight = flat[i] ? 1.0 : 1e-3;
-        sum[regions.label[i]] += weight * map.texels[i];
-        count[regions.label[i]] += weight;
-        ++regions.area[regions.label[i]];
+        }
+    for (GrowthQueue::Front front; queue.pop(front);) {
+        if (label[front.texel] != kNone) continue;
+        label[front.texel] = front.region;
+        push_around(front.texel % lattice.width, front.texel / lattice.width, front.region, front.steps);
     }
-    for (std::size_t r = 0; r < regions.level.size(); ++r)
-        if (count[r] > 0.0) regions.level[r] = sum[r] / count[r];
-}
-
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t r) {
-    while (parent[r] != r) r = parent[r] = parent[parent[r]];
-    return r;
-}
-
-// Joins regions whose common border is no edge: the map does not jump there, or the difference is within the grain,
-// or one of them is too small to be worth a path.
-bool merge_weak(const Image& map, const Lattice& lattice, Regions& regions, const std::vector<std::uint8_t>& flat,
-                double least_jump, double least_energy) {
-    const Borders borders = measure_borders(map, lattice, regions);
-    std::vector<std::uint32_t> parent(regions.level.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    struct Weak {
-        double strength;
-        std::uint32_t a, b;
-    };
-    std::vector<Weak> weak;
-    for (const auto& [pair, border] : borders) {
-        const double gap = regions.level[pair.second] - regions.level[pair.first];
-        const double jump = border.jump(gap);
-        const double small = std::min(regions.area[pair.first], regions.area[pair.second]);
-        const double energy = small * gap * gap;
-        if (jump < least_jump || jump < 0.3 * std::fabs(gap) || energy < least_energy)
-            weak.push_back({std::fabs(gap), pair.first, pair.second});
-    }
-    if (weak.empty()) return false;
-    std::stable_sort(weak.begin(), weak.end(), [](const Weak& p, const Weak& q) { return p.strength < q.strength; });
-    // The most alike first, the smaller into the larger. Levels change by it, so nothing that took part is joined to
-    // a third region in the same round, except that one may take up many.
-    enum State : std::uint8_t { untouched, taker, taken };
-    std::vector<std::uint8_t> state(regions.level.size(), untouched);
-    for (const Weak& w : weak) {
-        const bool first_smaller = regions.area[w.a] < regions.area[w.b];
-        const std::uint32_t small = first_smaller ? w.a : w.b, large = first_smaller ? w.b : w.a;
-        if (state[small] != untouched || state[large] == taken) continue;
-        state[small] = taken;
-        state[large] = taker;
-        parent[root_of(parent, small)] = root_of(parent, large);
-    }
-    std::vector<std::uint32_t> renumber(parent.size(), kNone);
-    std::uint32_t next = 0;
-    for (std::uint32_t& label : regions.label) {
-        const std::uint32_t root = root_of(parent, label);
-        if (renumber[root] == kNone) renumber[root] = next++;
-        label = renumber[root];
-    }
-    regions.level.assign(next, 0.0);
-    recompute_levels(map, regions, flat);
-    return true;
-}
-
-void merge_weak_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
-                        const std::vector<std::uint8_t>& flat, Regions& regions) {
-    const double least_jump = std::max(4.0 * noise, 0.02);
-    for (int round = 0; round < 200; ++round)
-        if (!merge_weak(map, lattice, regions, flat, least_jump, least_energy)) break;
+    return label;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, double noise) {
     const float most = static_cast<float>(std::max(7.0 * noise, 0.035));
+    const int w = lattice.width;
     std::vector<std::uint8_t> flat(map.texels.size());
-    for (int y = 0; y < lattice.height; ++y)
-        for (int x = 0; x < lattice.width; ++x) {
-            float low = 2.0f, high = -2.0f;
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const float v = map.texels[lattice.nearest(x + dx, y + dy)];
-                    low = std::min(low, v);
-                    high = std::max(high, v);
-                }
-            flat[static_cast<std::size_t>(y) * lattice.width + x] = high - low < most;
+    for_each_band(lattice.height, lattice.threads, [&](const Band& band) {
+        // Least and greatest of three rows, with a column more at either end.
+        std::vector<float> low(static_cast<std::size_t>(w) + 2), high(low.size());
+        for (int y = band.begin; y < band.end; ++y) {
+            const float* above = &map.texels[lattice.nearest(0, y - 1)];
+            const float* here = &map.texels[lattice.nearest(0, y)];
+            const float* below = &map.texels[lattice.nearest(0, y + 1)];
+            for (int x = 0; x < w; ++x) {
+                low[x + 1] = std::min(std::min(above[x], here[x]), below[x]);
+                high[x + 1] = std::max(std::max(above[x], here[x]), below[x]);
+            }
+            low[0] = low[lattice.wrap ? w : 1], high[0] = high[lattice.wrap ? w : 1];
+            low[w + 1] = low[lattice.wrap ? 1 : w], high[w + 1] = high[lattice.wrap ? 1 : w];
+            std::uint8_t* out = &flat[static_cast<std::size_t>(y) * w];
+            for (int x = 0; x < w; ++x)
+                out[x] = std::max(std::max(high[x], high[x + 1]), high[x + 2]) -
+                             std::min(std::min(low[x], low[x + 1]), low[x + 2]) < most;
         }
+    });
     return flat;
 }
 
@@ -279,15 +226,21 @@ Regions segment_regions(const Image& map, const Lattice& lattice, double noise, 
                         const std::vector<std::uint8_t>& flat) {
     const Histogram histogram = make_histogram(map, flat);
     const std::vector<double> levels = choose_levels(histogram, kMostLevels);
-    Regions regions = grow_regions(map, lattice, flat, levels.empty() ? std::vector<double>{0.5} : levels, 6);
-    recompute_levels(map, regions, flat);
-    merge_weak_regions(map, lattice, noise, least_energy, flat, regions);
+    Regions regions;
+    std::vector<std::uint32_t> label =
+        grow_regions(map, lattice, flat, levels.empty() ? std::vector<double>{0.5} : levels, regions);
+    measure_regions(map, lattice, flat, label, regions);
+    merge_regions(noise, least_energy, regions);
+    // The parts that were joined at once need no numbers of their own.
+    for_each_band(lattice.height, lattice.threads, [&](const Band& band) {
+        for (std::size_t i = static_cast<std::size_t>(band.begin) * lattice.width,
+                         end = static_cast<std::size_t>(band.end) * lattice.width; i < end; ++i)
+            label[i] = regions.region_of[label[i]];
+    });
+    regions.part = std::make_shared<const std::vector<std::uint32_t>>(std::move(label));
+    regions.region_of.resize(regions.level.size());
+    std::iota(regions.region_of.begin(), regions.region_of.end(), 0u);
     return regions;
-}
-
-void merge_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
-                   const std::vector<std::uint8_t>& flat, Regions& regions) {
-    merge_weak_regions(map, lattice, noise, least_energy, flat, regions);
 }
 
 }  // namespace burin::vectorizing

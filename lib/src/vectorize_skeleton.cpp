@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
 
 namespace burin::vectorizing {
 namespace {
@@ -13,46 +14,55 @@ constexpr int kAroundX[8] = {0, 1, 1, 1, 0, -1, -1, -1};
 constexpr int kAroundY[8] = {-1, -1, 0, 1, 1, 1, 0, -1};
 
 struct Walker {
-    const std::vector<std::uint8_t>& thin;
+    std::vector<std::uint8_t>& mask;  // see Mask
     const Lattice& lattice;
-    std::vector<int> node_of;          // per texel, -1 outside of nodes
-    std::vector<std::uint8_t> visited; // strand texels already taken
+    std::vector<int> texels;               // with the bit `thin`, row by row
+    std::unordered_map<int, int> node_at;  // number of the node per texel that has the bit `node`
 
     int at(int i, int k) const {
         const int j = lattice.index(i % lattice.width + kAroundX[k], i / lattice.width + kAroundY[k]);
-        return j >= 0 && thin[j] ? j : -1;
+        return j >= 0 && (mask[j] & Mask::thin) ? j : -1;
     }
     int degree(int i) const {
         int n = 0;
         for (int k = 0; k < 8; ++k) n += at(i, k) >= 0;
         return n;
     }
+    bool is_node(int i) const { return mask[i] & Mask::node; }
+    bool is_visited(int i) const { return mask[i] & Mask::visited; }
 };
 
+std::vector<int> thin_texels(const std::vector<std::uint8_t>& mask, const Parts& parts, const Lattice& lattice) {
+    std::vector<int> texels;
+    for_each_run(parts, [&](int y, const Run& run) {
+        for (int i = y * lattice.width + run.begin, end = y * lattice.width + run.end; i < end; ++i)
+            if (mask[i] & Mask::thin) texels.push_back(i);
+    });
+    return texels;
+}
+
 // Texels with three or more neighbours, joined where they touch, become nodes.
-void find_nodes(Walker& walker, const std::vector<float>& thickness, Skeleton& skeleton) {
-    const int count = walker.lattice.size();
-    walker.node_of.assign(count, -1);
-    std::vector<std::uint8_t> is_node(count, 0);
-    for (int i = 0; i < count; ++i) is_node[i] = walker.thin[i] && walker.degree(i) >= 3;
+void find_nodes(Walker& walker, const Parts& parts, Skeleton& skeleton) {
+    const int width = walker.lattice.width;
+    for (const int i : walker.texels)
+        if (walker.degree(i) >= 3) walker.mask[i] |= Mask::node;
     std::vector<std::pair<int, Vec2>> stack;
-    for (int i = 0; i < count; ++i) {
-        if (!is_node[i] || walker.node_of[i] >= 0) continue;
+    for (const int i : walker.texels) {
+        if (!walker.is_node(i) || walker.node_at.contains(i)) continue;
         SkeletonNode node;
         const int id = static_cast<int>(skeleton.nodes.size());
         int texels = 0;
-        stack.assign(1, {i, {i % walker.lattice.width + 0.5, i / walker.lattice.width + 0.5}});
-        walker.node_of[i] = id;
+        stack.assign(1, {i, {i % width + 0.5, i / width + 0.5}});
+        walker.node_at.emplace(i, id);
         while (!stack.empty()) {
             const auto [j, p] = stack.back();
             stack.pop_back();
             node.position = node.position + p;
-            node.radius = std::max(node.radius, static_cast<double>(thickness[j]));
+            node.radius = std::max(node.radius, distance_inside(parts, walker.lattice, j % width, j / width));
             ++texels;
             for (int k = 0; k < 8; ++k) {
                 const int m = walker.at(j, k);
-                if (m < 0 || !is_node[m] || walker.node_of[m] >= 0) continue;
-                walker.node_of[m] = id;
+                if (m < 0 || !walker.is_node(m) || !walker.node_at.emplace(m, id).second) continue;
                 stack.push_back({m, p + Vec2{double(kAroundX[k]), double(kAroundY[k])}});
             }
         }
@@ -68,16 +78,17 @@ Strand walk_strand(Walker& walker, int first, Vec2 start, int from) {
     int current = first;
     Vec2 p = start;
     for (;;) {
-        walker.visited[current] = 1;
+        walker.mask[current] |= Mask::visited;
         strand.texels.push_back(p);
         int next = -1, next_k = 0, node = -1;
         for (int k = 0; k < 8; ++k) {
             const int j = walker.at(current, k);
             if (j < 0) continue;
-            if (walker.node_of[j] >= 0) {
+            if (walker.is_node(j)) {
                 // The first texels touch the node they came from; returning to it later closes a loop on it.
-                if (walker.node_of[j] != from || strand.texels.size() > 3) node = walker.node_of[j];
-            } else if (!walker.visited[j] && (next < 0 || k % 2 == 0)) {
+                const int id = walker.node_at.at(j);
+                if (id != from || strand.texels.size() > 3) node = id;
+            } else if (!walker.is_visited(j) && (next < 0 || k % 2 == 0)) {
                 next = j;
                 next_k = k;
             }
@@ -96,22 +107,21 @@ Vec2 centre_of(int i, const Lattice& lattice) { return {i % lattice.width + 0.5,
 
 void trace_strands(Walker& walker, Skeleton& skeleton) {
     const Lattice& lattice = walker.lattice;
-    walker.visited.assign(lattice.size(), 0);
-    for (int i = 0; i < lattice.size(); ++i) {
-        if (walker.node_of[i] < 0) continue;
+    for (const int i : walker.texels) {
+        if (!walker.is_node(i)) continue;
         for (int k = 0; k < 8; ++k) {
             const int j = walker.at(i, k);
-            if (j < 0 || walker.node_of[j] >= 0 || walker.visited[j]) continue;
+            if (j < 0 || walker.is_node(j) || walker.is_visited(j)) continue;
             const Vec2 start = centre_of(i, lattice) + Vec2{double(kAroundX[k]), double(kAroundY[k])};
-            skeleton.strands.push_back(walk_strand(walker, j, start, walker.node_of[i]));
+            skeleton.strands.push_back(walk_strand(walker, j, start, walker.node_at.at(i)));
         }
     }
-    for (int i = 0; i < lattice.size(); ++i) {
-        if (!walker.thin[i] || walker.node_of[i] >= 0 || walker.visited[i] || walker.degree(i) > 1) continue;
+    for (const int i : walker.texels) {
+        if (walker.is_node(i) || walker.is_visited(i) || walker.degree(i) > 1) continue;
         skeleton.strands.push_back(walk_strand(walker, i, centre_of(i, lattice), -1));
     }
-    for (int i = 0; i < lattice.size(); ++i) {
-        if (!walker.thin[i] || walker.node_of[i] >= 0 || walker.visited[i]) continue;
+    for (const int i : walker.texels) {
+        if (walker.is_node(i) || walker.is_visited(i)) continue;
         Strand strand = walk_strand(walker, i, centre_of(i, lattice), -1);
         strand.loop = strand.texels.size() > 4;
         skeleton.strands.push_back(std::move(strand));
@@ -203,11 +213,10 @@ void merge_through(Skeleton& skeleton, const Lattice& lattice) {
 
 }  // namespace
 
-Skeleton trace_skeleton(const std::vector<std::uint8_t>& thin, const std::vector<float>& thickness,
-                        const Lattice& lattice) {
+Skeleton trace_skeleton(std::vector<std::uint8_t>& mask, const Parts& parts, const Lattice& lattice) {
     Skeleton skeleton;
-    Walker walker{thin, lattice, {}, {}};
-    find_nodes(walker, thickness, skeleton);
+    Walker walker{mask, lattice, thin_texels(mask, parts, lattice), {}};
+    find_nodes(walker, parts, skeleton);
     trace_strands(walker, skeleton);
     for (int round = 0; round < 3 && prune_spurs(skeleton); ++round) merge_through(skeleton, lattice);
     contract_short(skeleton, lattice);

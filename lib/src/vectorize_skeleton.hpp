@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vectorize_internal.hpp"
+#include "vectorize_parts.hpp"
 
 namespace burin::vectorizing {
 
@@ -26,10 +27,24 @@ struct Skeleton {
     std::vector<SkeletonNode> nodes;
 };
 
-// Follows the lines of a thinned mask. `thickness` is the distance to the mask's border per texel.
+// Bits of a mask's texels.
+struct Mask {
+    static constexpr std::uint8_t shape = 1;    // it belongs to the mask
+    static constexpr std::uint8_t thin = 2;     // and to its lines of one texel
+    static constexpr std::uint8_t node = 4;     // lines meet here
+    static constexpr std::uint8_t visited = 8;  // a strand was followed over it
+};
+
+// Thins the mask to lines one texel wide that keep its topology: what goes loses its bit `thin`, which all texels of
+// `parts` have before.
+void thin_mask(std::vector<std::uint8_t>& mask, const Parts& parts, const Lattice& lattice);
+
+// Euclidean distance of the centre of texel (x, y) to that of the nearest texel outside of all parts.
+double distance_inside(const Parts& parts, const Lattice& lattice, int x, int y);
+
+// Follows the lines of a thinned mask; `parts` are those of the whole mask.
 // Spurs shorter than the mask is wide at their node are pruned, nodes that one crossing split are joined again.
-Skeleton trace_skeleton(const std::vector<std::uint8_t>& thin, const std::vector<float>& thickness,
-                        const Lattice& lattice);
+Skeleton trace_skeleton(std::vector<std::uint8_t>& mask, const Parts& parts, const Lattice& lattice);
 
 // Sub-texel centres, widths and contrasts of every strand from the response across it.
 void measure_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice);

@@ -2,8 +2,11 @@
 #include "vectorize_internal.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <unordered_map>
+
+#include "parallel.hpp"
 
 namespace burin::vectorizing {
 namespace {
@@ -11,6 +14,7 @@ namespace {
 // Borders run on the lattice of texel corners. Directions: 0 right, 1 down, 2 left, 3 up.
 constexpr int kDirX[4] = {1, 0, -1, 0};
 constexpr int kDirY[4] = {0, 1, 0, -1};
+constexpr std::uint32_t kOutside = 0xffffffffu;
 
 struct Corner {
     int x = 0, y = 0;
@@ -22,19 +26,27 @@ class BorderTracer {
         : map_(map), lattice_(lattice), regions_(regions),
           columns_(lattice.wrap ? lattice.width : lattice.width + 1),
           rows_(lattice.wrap ? lattice.height : lattice.height + 1),
-          taken_(static_cast<std::size_t>(columns_) * rows_, 0) {}
+          corners_(static_cast<std::size_t>(columns_) * rows_, 0) {
+        for_each_band(rows_, lattice.threads, [&](const Band& band) {
+            std::vector<std::uint32_t> above = region_row(band.begin - 1);
+            for (int y = band.begin; y < band.end; ++y) {
+                std::vector<std::uint32_t> below = region_row(y);
+                find_borders(above, below, &corners_[static_cast<std::size_t>(y) * columns_]);
+                above.swap(below);
+            }
+        });
+    }
 
     std::vector<Chain> trace() {
         std::vector<Chain> chains;
-        for (int y = 0; y < rows_; ++y)
-            for (int x = 0; x < columns_; ++x)
-                if (is_node({x, y}))
-                    for (int dir = 0; dir < 4; ++dir)
-                        if (is_border({x, y}, dir) && !is_taken({x, y}, dir)) chains.push_back(follow({x, y}, dir));
-        for (int y = 0; y < rows_; ++y)
-            for (int x = 0; x < columns_; ++x)
-                for (int dir = 0; dir < 4; ++dir)
-                    if (is_border({x, y}, dir) && !is_taken({x, y}, dir)) chains.push_back(follow({x, y}, dir));
+        const auto follow_all = [&](Corner c) {
+            for (int dir = 0; dir < 4; ++dir)
+                if (is_border(c, dir) && !is_taken(c, dir)) chains.push_back(follow(c, dir));
+        };
+        for_each_border_corner([&](Corner c) {
+            if (is_node(c)) follow_all(c);
+        });
+        for_each_border_corner(follow_all);
         settle_nodes(chains);
         return chains;
     }
@@ -42,7 +54,7 @@ class BorderTracer {
   private:
     std::uint32_t label(int x, int y) const {
         const int i = lattice_.index(x, y);
-        return i < 0 ? 0xffffffffu : regions_.label[i];
+        return i < 0 ? kOutside : regions_.at(i);
     }
     // Texels left and right of the lattice edge that leaves the corner in a direction.
     std::pair<Corner, Corner> sides(Corner c, int dir) const {
@@ -53,16 +65,32 @@ class BorderTracer {
             default: return {{c.x - 1, c.y - 1}, {c.x, c.y - 1}};
         }
     }
-    bool is_border(Corner c, int dir) const {
-        const auto [left, right] = sides(c, dir);
-        const std::uint32_t a = label(left.x, left.y), b = label(right.x, right.y);
-        return a != b && a != 0xffffffffu && b != 0xffffffffu;
+    // The regions of a row of texels, from the one left of the first corner to the one right of the last.
+    std::vector<std::uint32_t> region_row(int y) const {
+        std::vector<std::uint32_t> row(static_cast<std::size_t>(columns_) + 1, kOutside);
+        const int start = lattice_.index(0, y);
+        if (start < 0) return row;
+        for (int x = 0; x < lattice_.width; ++x) row[x + 1] = regions_.at(static_cast<std::size_t>(start) + x);
+        if (lattice_.wrap) row.front() = row.back();
+        return row;
     }
-    int degree(Corner c) const {
-        int n = 0;
-        for (int dir = 0; dir < 4; ++dir) n += is_border(c, dir);
-        return n;
+    // The directions in which a border leaves each corner of a row, as bits 0 to 3.
+    void find_borders(const std::vector<std::uint32_t>& above, const std::vector<std::uint32_t>& below, std::uint8_t* row) const {
+        const auto differ = [](std::uint32_t a, std::uint32_t b) { return a != b && a != kOutside && b != kOutside; };
+        for (int x = 0; x < columns_; ++x)
+            row[x] = static_cast<std::uint8_t>(differ(above[x + 1], below[x + 1]) | differ(below[x + 1], below[x]) << 1 |
+                                               differ(below[x], above[x]) << 2 | differ(above[x], above[x + 1]) << 3);
     }
+    template <typename Visit>
+    void for_each_border_corner(const Visit& visit) const {
+        for (int y = 0; y < rows_; ++y) {
+            const std::uint8_t* row = &corners_[static_cast<std::size_t>(y) * columns_];
+            for (int x = 0; x < columns_; ++x)
+                if (row[x] != 0) visit(Corner{x, y});
+        }
+    }
+    bool is_border(Corner c, int dir) const { return corners_[slot(c)] >> dir & 1; }
+    int degree(Corner c) const { return std::popcount(static_cast<unsigned>(corners_[slot(c)] & 15u)); }
     // Two texels of one region that touch at a corner of two others of one region: two borders that only touch.
     bool is_saddle(Corner c) const {
         return degree(c) == 4 && label(c.x, c.y) == label(c.x - 1, c.y - 1) &&
@@ -73,15 +101,15 @@ class BorderTracer {
         return n != 0 && n != 2 && !is_saddle(c);
     }
     std::size_t slot(Corner c) const {
-        const int x = lattice_.wrap ? Lattice::modulo(c.x, columns_) : c.x;
-        const int y = lattice_.wrap ? Lattice::modulo(c.y, rows_) : c.y;
+        const bool inside = c.x >= 0 && c.y >= 0 && c.x < columns_ && c.y < rows_;
+        const int x = inside ? c.x : Lattice::modulo(c.x, columns_), y = inside ? c.y : Lattice::modulo(c.y, rows_);
         return static_cast<std::size_t>(y) * columns_ + x;
     }
-    bool is_taken(Corner c, int dir) const { return taken_[slot(c)] >> dir & 1; }
+    bool is_taken(Corner c, int dir) const { return corners_[slot(c)] >> (4 + dir) & 1; }
     void take(Corner c, int dir) {
-        taken_[slot(c)] |= static_cast<std::uint8_t>(1 << dir);
+        corners_[slot(c)] |= static_cast<std::uint8_t>(16 << dir);
         const Corner next{c.x + kDirX[dir], c.y + kDirY[dir]};
-        taken_[slot(next)] |= static_cast<std::uint8_t>(1 << ((dir + 2) % 4));
+        corners_[slot(next)] |= static_cast<std::uint8_t>(16 << ((dir + 2) % 4));
     }
 
     // Where the map passes half height between the texels beside an edge; where it does not, because a speck or a third
@@ -182,7 +210,7 @@ class BorderTracer {
     const Lattice& lattice_;
     const Regions& regions_;
     int columns_, rows_;
-    std::vector<std::uint8_t> taken_;
+    std::vector<std::uint8_t> corners_;  // bits 0-3: a border leaves in that direction, 4-7: it was followed
 };
 
 }  // namespace
