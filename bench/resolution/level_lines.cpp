@@ -18,14 +18,6 @@ void quantize(Image& map, int bits) {
     for (float& v : map.texels) v = static_cast<float>(std::round(std::min(1.0, std::max(0.0, double(v))) * steps) / steps);
 }
 
-Image rasterized(const ResolvedPattern& pattern, int side, int samples, int threads) {
-    RasterizeOptions options;
-    options.samples = samples;
-    options.threads = threads;
-    options.level_tolerance = 4e-5;  // levels of stored patterns come from 16-bit codes
-    return rasterize_height(pattern, side, side, options);
-}
-
 }  // namespace
 
 ResolvedPattern resolved_or_exit(const Pattern& pattern, bool lenient) {
@@ -39,18 +31,18 @@ ResolvedPattern resolved_or_exit(const Pattern& pattern, bool lenient) {
     return std::move(*resolved);
 }
 
-Image map_of(const ResolvedPattern& pattern, int texels, int threads) {
-    return rasterized(pattern, texels, kMapSamples, threads);
+Image sampled(const ResolvedPattern& pattern, int side, int samples, int threads) {
+    RasterizeOptions options;
+    options.samples = samples;
+    options.threads = threads;
+    options.level_tolerance = 4e-5;  // levels of stored patterns come from 16-bit codes
+    return rasterize_height(pattern, side, side, options);
 }
 
 Image map_of(const Pattern& pattern, int texels, int bits) {
-    Image map = map_of(resolved_or_exit(pattern, false), texels);
+    Image map = sampled(resolved_or_exit(pattern, false), texels, kMapSamples);
     quantize(map, bits);
     return map;
-}
-
-Image zoomed(const ResolvedPattern& pattern, int zoom, int threads) {
-    return rasterized(pattern, zoom, kFineSamples, threads);
 }
 
 Image zoomed(const Image& map, int zoom, Wrap wrap) {
@@ -80,7 +72,7 @@ std::vector<Segment> lines_of(const Image& surface, const std::vector<double>& h
 }
 
 std::vector<Segment> lines_of(const Pattern& pattern, const std::vector<double>& heights, int zoom, int texels) {
-    return lines_of(zoomed(resolved_or_exit(pattern, true), zoom), heights, texels);
+    return lines_of(sampled(resolved_or_exit(pattern, true), zoom, kFineSamples), heights, texels);
 }
 
 }  // namespace burin::bench

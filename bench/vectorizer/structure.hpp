@@ -45,6 +45,9 @@ struct StructureScore {
 // within 0.5 texel of the other. An end is matched by an end within 1 texel, any other node by one of the same kind
 // within 2 texels. Each serves once.
 //
+// A straight stroke of 10 texels or more that meets nothing may as well be recovered as the outline of its walls: where it
+// is missed, the better score counts.
+//
 // Both patterns cover one tile of texels x texels; when they repeat, places are compared across the border.
 // Cost: some microseconds per texel of path, and the square of the number of nodes.
 StructureScore compare_structure(const Pattern& authored, const Pattern& recovered, int texels);

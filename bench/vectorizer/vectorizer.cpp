@@ -31,6 +31,8 @@
 namespace burin::bench {
 namespace {
 
+constexpr int kSurfaceSamples = 4;  // per side of a place of the surfaces that level lines are drawn from
+
 struct Options {
     std::vector<std::string> only;
     std::vector<double> walls{2.0, 0.4};
@@ -54,9 +56,9 @@ Truth truth_of(const Subject& subject, double wall, int zoom) {
     truth.pattern = subject.draw(wall);
     truth.heights = half_heights(truth.pattern);
     const ResolvedPattern resolved = resolved_or_exit(truth.pattern, false);
-    truth.map = map_of(resolved, kPatternTexels, 1);
-    truth.twice = map_of(resolved, 2 * kPatternTexels, 1);
-    truth.surface = zoomed(resolved, zoom, 1);
+    truth.map = sampled(resolved, kPatternTexels, 40, 1);
+    truth.twice = sampled(resolved, 2 * kPatternTexels, 20, 1);
+    truth.surface = sampled(resolved, zoom, kSurfaceSamples, 1);
     truth.lines = lines_of(truth.surface, truth.heights, kPatternTexels);
     return truth;
 }
@@ -84,7 +86,7 @@ Row measure(const Options& options, const std::string& name, double wall, Damage
     Row row{.subject = name, .wall = wall, .damage = damage};
     const HeightMap map = damaged(truth.map, damage, folder);
     const Found found = find_pattern_of(map, truth.pattern);
-    const Image surface = zoomed(found.stored, options.zoom, 1);
+    const Image surface = sampled(found.stored, options.zoom, kSurfaceSamples, 1);
     const std::vector<Segment> lines = lines_of(surface, truth.heights, kPatternTexels);
     row.contour = distance_between(truth.lines, lines);
     row.worst = row.contour.spots.empty() ? Vec2{} : row.contour.spots.front().corner + Vec2{8.0, 8.0};
