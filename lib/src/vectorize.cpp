@@ -85,6 +85,8 @@ void find_features(const Image& source, Traced& traced) {
     tie_lines(ridges, with_ridges, wide, ChainKind::ridge, radius);
     traced.lines = std::move(grooves);
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
+    for (const ChainKind kind : {ChainKind::groove, ChainKind::ridge})
+        for (Chain& spot : trace_spots(map, wide, kind, radius, noise, energy)) traced.lines.push_back(std::move(spot));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
     traced.flattened = crop_margin(map, margin, lattice);
     const std::vector<std::uint8_t> flat = find_flat(traced.flattened, lattice, noise);
@@ -177,6 +179,7 @@ Path make_path(const FittedChain& fitted, const Units& units, const Regions& reg
     Path path;
     path.closed = fitted.chain.closed;
     path.profile = fitted.profile;
+    if (fitted.chain.spot == Spot::round) path.start_cap = path.end_cap = CapKind::round;
     for (Element e : fitted.elements) {
         e.p0 = units.point(e.p0);
         e.p1 = units.point(e.p1);

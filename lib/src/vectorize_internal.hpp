@@ -55,6 +55,9 @@ float sample(const Image& image, const Lattice& lattice, Vec2 p);
 
 enum class ChainKind : std::uint8_t { groove, ridge, step };
 
+// Dots, bolts, short slots: a short line whose ends carry its profile round them, as an arc or square (the hip).
+enum class Spot : std::uint8_t { no, round, square };
+
 // What the end of a chain is tied to; the fit pins such ends.
 enum class EndTie : std::uint8_t { free, node, chain, border };
 
@@ -63,6 +66,7 @@ struct Chain {
     ChainKind kind = ChainKind::groove;
     std::vector<Vec2> points;
     bool closed = false;
+    Spot spot = Spot::no;
     double half_width = 0.0;  // of a line, at half its height
     double contrast = 0.0;    // height of the line or of the step
     EndTie start_tie = EndTie::free;
@@ -135,6 +139,18 @@ struct LineScale {
 // less than a little of `energy`, the map's whole sum of squares, is left out. `intact`: the map with all lines of this
 // kind still in it, where they are measured.
 std::vector<Chain> trace_lines(Image& map, const Image& intact, const Lattice& lattice, ChainKind kind, const LineScale& scale, double noise,
+                               double energy);
+
+// Depth of each texel below the closing of the map by a square (grooves), or height above its opening (ridges).
+Image hat_response(const Image& map, const Lattice& lattice, ChainKind kind, int radius);
+// Texels above a good part of the strongest response around them, and above `least`.
+std::vector<std::uint8_t> strong_mask(const Image& response, const Lattice& lattice, int radius, double least);
+double least_response(double noise);  // of a hat: what the grain does not show
+int square_radius(double radius);     // texels to each side of a square
+
+// Grooves or ridges too short for a line and too small for a plateau, in what is left of the map without lines; taken
+// out of it. Every spot explains more than a little of `energy`.
+std::vector<Chain> trace_spots(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
                                double energy);
 
 // Joins and ties the ends of all lines of one kind by the map that has them in it: the two below.

@@ -421,12 +421,8 @@ std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const
     }
     for (Chain& chain : chains) {
         settle_ends(chain, response, lattice);
-        if (chain.closed) {
-            const Vec2 gap = chain.points.front() - chain.points.back();
-            const Vec2 home = gap + lattice.shift_to(gap, {0, 0});
-            chain.winding = home - gap;
-            chain.winding = -chain.winding;
-        }
+        if (chain.closed)
+            chain.winding = lattice.shift_to(chain.points.front() - chain.points.back(), {0.0, 0.0});
     }
     return chains;
 }

@@ -31,7 +31,8 @@ Image cropped(const cv::Mat& mat, const Lattice& lattice, int margin) {
     return out;
 }
 
-// Depth of each texel below the closing of the map (grooves), or height above its opening (ridges).
+}  // namespace
+
 Image hat_response(const Image& map, const Lattice& lattice, ChainKind kind, int radius) {
     const int margin = 2 * radius + 1;
     const cv::Mat source = padded(map, lattice, margin);
@@ -41,8 +42,8 @@ Image hat_response(const Image& map, const Lattice& lattice, ChainKind kind, int
     return cropped(hat, lattice, margin);
 }
 
-// Texels above a good part of the strongest response around them, and above the grain. Where two lines cross, the map is
-// often twice as deep: with a half instead of 0.4 the lines would lose touch with their crossing.
+// Where two lines cross, the map is often twice as deep: with a half instead of 0.4 the lines would lose touch with
+// their crossing.
 std::vector<std::uint8_t> strong_mask(const Image& response, const Lattice& lattice, int radius, double least) {
     const int margin = radius + 1;
     const cv::Mat source = padded(response, lattice, margin);
@@ -55,6 +56,12 @@ std::vector<std::uint8_t> strong_mask(const Image& response, const Lattice& latt
         mask[i] = response.texels[i] > std::max(0.4f * local.texels[i], static_cast<float>(least));
     return mask;
 }
+
+double least_response(double noise) { return std::max(4.0 * noise, 0.012); }
+
+int square_radius(double radius) { return std::max(2, static_cast<int>(std::lround(radius))); }
+
+namespace {
 
 // The connected parts of a mask, without those whose area or summed response is that of a speck.
 Parts find_shapes(std::vector<std::uint8_t>& mask, const Image& response, const Lattice& lattice, double least_energy) {
@@ -237,10 +244,6 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
     }
     return false;
 }
-
-double least_response(double noise) { return std::max(4.0 * noise, 0.012); }
-
-int square_radius(double radius) { return std::max(2, static_cast<int>(std::lround(radius))); }
 
 // A chain whose points were mostly dropped as unsteady was bridged over noise.
 bool is_supported(const Chain& chain) {

@@ -18,6 +18,7 @@ std::vector<Piece> flatten(const FittedChain& fitted) {
             pieces.push_back({point_at(e, double(k) / n), point_at(e, double(k + 1) / n), static_cast<std::uint32_t>(i),
                               double(k) / n, double(k + 1) / n});
     }
+    for (Piece& piece : pieces) piece.spot = fitted.chain.spot;
     if (!fitted.chain.closed && !pieces.empty()) {
         pieces.front().first = true;
         pieces.back().last = true;

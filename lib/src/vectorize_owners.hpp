@@ -27,6 +27,7 @@ struct Piece {
     std::uint32_t element = 0;
     double t0 = 0.0, t1 = 1.0;
     bool first = false, last = false;  // at an open end of the chain
+    Spot spot = Spot::no;
 };
 std::vector<Piece> flatten(const FittedChain& fitted);
 
@@ -63,9 +64,11 @@ void for_each_texel_of_piece(const Lattice& lattice, const Piece& piece, double 
             const double distance = std::sqrt(square);
             Place place;
             place.distance = distance;
-            place.offset = past > 0.0 ? (across < 0.0 ? -distance : distance) : across;
+            // Round the end of a square spot its profile stands at the greater of both distances.
+            const double around = piece.spot == Spot::square ? std::max(past, std::fabs(across)) : distance;
+            place.offset = past > 0.0 ? (across < 0.0 ? -around : around) : across;
             place.along = std::clamp(along / l, 0.0, 1.0);
-            place.beyond = past > 0.25 && ((along < 0.0 && piece.first) || (along > l && piece.last));
+            place.beyond = past > 0.25 && piece.spot == Spot::no && ((along < 0.0 && piece.first) || (along > l && piece.last));
             visit(texel, place);
         }
     }

@@ -56,7 +56,13 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
         const int k = static_cast<int>(std::lround(owner.offset / kSectionStep)) + half;
         return owner.chain * bins + static_cast<std::size_t>(std::clamp(k, 0, 2 * half));
     };
-    const auto counts = [](const Owner& owner) { return owner.chain != kNoChain && !owner.beyond; };
+    // Around a spot lies what it stands on.
+    constexpr double kRim = 2.5;  // texels
+    const auto counts = [&](const Owner& owner) {
+        if (owner.chain == kNoChain || owner.beyond) return false;
+        const Chain& chain = chains[owner.chain].chain;
+        return chain.spot == Spot::no || std::fabs(owner.offset) < chain.half_width + kRim;
+    };
     for (const Owner& owner : owners)
         if (counts(owner)) ++first[bin_of(owner) + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());

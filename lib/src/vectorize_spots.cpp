@@ -1,0 +1,189 @@
+// Spots: bolts, dots, short slots. What is left of the response after lines were taken out, in parts too small for a
+// plateau, becomes a short line each, whose ends carry its profile round.
+#include "vectorize_internal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace burin::vectorizing {
+namespace {
+
+constexpr double kLeastShare = 0.75;    // of a part's squares, that its distance from the middle tells
+constexpr double kLeastEnergy = 2e-5;   // of the map's, for one spot
+constexpr int kMostFlat = 12;           // flat texels at its bottom: a plateau has more
+constexpr double kMargin = 2.0;         // texels around a part that belong to its spot
+
+struct Part {
+    std::vector<Vec2> texels;  // centres, unwrapped
+    std::vector<int> index;
+    int flat = 0;
+};
+
+// The parts of a mask, in unwrapped coordinates.
+std::vector<Part> collect_parts(const std::vector<std::uint8_t>& mask, const std::vector<std::uint8_t>& flat,
+                                const Lattice& lattice) {
+    std::vector<Part> parts;
+    std::vector<std::uint8_t> seen(mask.size(), 0);
+    for (int i = 0; i < lattice.size(); ++i) {
+        if (!mask[i] || seen[i]) continue;
+        Part part;
+        part.texels.push_back({i % lattice.width + 0.5, i / lattice.width + 0.5});
+        part.index.push_back(i);
+        seen[i] = 1;
+        for (std::size_t k = 0; k < part.texels.size(); ++k) {
+            part.flat += flat[part.index[k]];
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const Vec2 p = part.texels[k] + Vec2{double(dx), double(dy)};
+                    const int j = lattice.index(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
+                    if (j < 0 || !mask[j] || seen[j]) continue;
+                    seen[j] = 1;
+                    part.texels.push_back(p);
+                    part.index.push_back(j);
+                }
+        }
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+// The texels of a part, and those that touch it, each once.
+std::vector<int> texels_around(const Part& part, const Lattice& lattice) {
+    std::vector<int> texels;
+    for (const int index : part.index)
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx) {
+                const int texel = lattice.index(index % lattice.width + dx, index / lattice.width + dy);
+                if (texel >= 0) texels.push_back(texel);
+            }
+    std::sort(texels.begin(), texels.end());
+    texels.erase(std::unique(texels.begin(), texels.end()), texels.end());
+    return texels;
+}
+
+// A line with ends that carry a profile round, before it is known to fit.
+struct Shape {
+    Vec2 centre, along;  // along: of unit length
+    double half_length = 0.0;
+    Spot kind = Spot::round;
+
+    // What the profile's offset is at p, without its sign.
+    double offset(Vec2 p) const {
+        const double x = std::max(0.0, std::fabs(dot(p - centre, along)) - half_length);
+        const double y = std::fabs(cross(along, p - centre));
+        return kind == Spot::round ? std::hypot(x, y) : std::max(x, y);
+    }
+};
+
+// Texels around a part with what the response shows there.
+struct Field {
+    std::vector<Vec2> places;
+    std::vector<double> heights;
+};
+
+Field look_around(const Part& part, const Image& response, const Lattice& lattice) {
+    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+    for (const Vec2 p : part.texels) {
+        x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
+        y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
+    }
+    Field field;
+    for (double y = y0 - kMargin; y <= y1 + kMargin; y += 1.0)
+        for (double x = x0 - kMargin; x <= x1 + kMargin; x += 1.0) {
+            const int texel = lattice.index(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+            if (texel < 0) continue;
+            field.places.push_back({x, y});
+            field.heights.push_back(response.texels[texel]);
+        }
+    return field;
+}
+
+// Share of the field's squares that a section over the shape's offset explains.
+double share_of(const Shape& shape, const Field& field) {
+    constexpr double kBin = 0.75;  // texels
+    std::vector<std::array<double, 3>> bins;  // count, sum, squares
+    double whole = 0.0, left = 0.0;
+    for (std::size_t i = 0; i < field.places.size(); ++i) {
+        const std::size_t bin = static_cast<std::size_t>(shape.offset(field.places[i]) / kBin);
+        if (bin >= bins.size()) bins.resize(bin + 1, {0.0, 0.0, 0.0});
+        const double h = field.heights[i];
+        bins[bin][0] += 1.0, bins[bin][1] += h, bins[bin][2] += h * h;
+        whole += h * h;
+    }
+    for (const auto& [count, sum, squares] : bins)
+        if (count > 0.0) left += squares - sum * sum / count;
+    return whole > 0.0 ? 1.0 - left / whole : 0.0;
+}
+
+// Weighted middle and axes of the field.
+Shape fit_axes(const Field& field, double& narrow) {
+    Shape shape;
+    double total = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    for (std::size_t i = 0; i < field.places.size(); ++i)
+        total += field.heights[i], shape.centre = shape.centre + field.places[i] * field.heights[i];
+    shape.centre = shape.centre * (1.0 / total);
+    for (std::size_t i = 0; i < field.places.size(); ++i) {
+        const Vec2 d = field.places[i] - shape.centre;
+        const double w = field.heights[i] / total;
+        xx += w * d.x * d.x, xy += w * d.x * d.y, yy += w * d.y * d.y;
+    }
+    const double middle = 0.5 * (xx + yy), half = std::hypot(0.5 * (xx - yy), xy);
+    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    shape.along = {std::cos(angle), std::sin(angle)};
+    // Of a bar, the variance along it is its squared length over 12.
+    narrow = std::sqrt(12.0 * std::max(1e-6, middle - half));
+    shape.half_length = 0.5 * (std::sqrt(12.0 * (middle + half)) - narrow);
+    return shape;
+}
+
+std::optional<Chain> make_spot(const Part& part, const Image& response, const Lattice& lattice, ChainKind kind,
+                               double most_side, double least_energy) {
+    const Field field = look_around(part, response, lattice);
+    double energy = 0.0, highest = 0.0;
+    for (const double h : field.heights) energy += h * h, highest = std::max(highest, h);
+    if (energy < least_energy) return std::nullopt;
+    double narrow = 0.0;
+    const Shape found = fit_axes(field, narrow);
+    if (narrow > most_side || found.half_length > 1.5 * most_side) return std::nullopt;
+    Shape best = found;
+    double best_share = 0.0;
+    for (const Spot spot : {Spot::round, Spot::square})
+        for (const Vec2 along : {found.along, Vec2{1.0, 0.0}, Vec2{0.0, 1.0}})
+            for (const double length : {found.half_length, 0.0}) {
+                const Shape shape{found.centre, along, length, spot};
+                const double share = share_of(shape, field);
+                if (share > best_share + 0.005) best = shape, best_share = share;
+            }
+    if (best_share < kLeastShare) return std::nullopt;
+    Chain chain;
+    chain.kind = kind;
+    chain.spot = best.kind;
+    chain.half_width = 0.5 * narrow;
+    chain.contrast = highest;
+    const Vec2 reach = best.along * std::max(best.half_length, 0.05);
+    chain.points = {best.centre - reach, best.centre + reach};
+    return chain;
+}
+
+}  // namespace
+
+std::vector<Chain> trace_spots(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
+                               double energy) {
+    const int r = square_radius(radius);
+    const Image response = hat_response(map, lattice, kind, r);
+    const std::vector<std::uint8_t> mask = strong_mask(response, lattice, std::max(4, r / 3), least_response(noise));
+    const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
+    std::vector<Chain> spots;
+    for (const Part& part : collect_parts(mask, find_flat(map, lattice, noise), lattice)) {
+        if (part.flat > kMostFlat || part.texels.size() < 3 || part.texels.size() > std::size_t(4 * r * r)) continue;
+        std::optional<Chain> spot = make_spot(part, response, lattice, kind, 1.6 * r, kLeastEnergy * energy);
+        if (!spot) continue;
+        for (const int texel : texels_around(part, lattice)) map.texels[texel] += sign * response.texels[texel];
+        spots.push_back(std::move(*spot));
+    }
+    return spots;
+}
+
+}  // namespace burin::vectorizing
