@@ -66,6 +66,29 @@ void write_fine(const std::string& path, Image map) {
     value_or_leave(write_height(path, map));
 }
 
+// The pattern packed and read back, and what it explains then.
+Result<Found> stored(const Pattern& pattern, const Image& map) {
+    const auto resolved = resolve_pattern(pattern, {.lenient = true});
+    if (!resolved) return resolved.error();
+    GridOptions grid_options;
+    grid_options.threads = 1;
+    const auto grid = build_grid(*resolved, grid_options);
+    if (!grid) return grid.error();
+    const auto textures = pack_textures(*resolved, *grid);
+    if (!textures) return textures.error();
+    Found found;
+    found.pattern = pattern;
+    found.stored = value_or_leave(unpack_textures(*textures, describe_pattern(*resolved, *textures))).pattern;
+    found.texture_bytes = (textures->grid.size() + textures->data.size()) * sizeof(std::uint32_t);
+    found.elements = found.stored.elements.size();
+    RasterizeOptions drawing;
+    drawing.threads = 1;
+    drawing.level_tolerance = 4e-5;
+    const Image heights = rasterize_height(found.stored, map.width, map.height, drawing);
+    found.explained = compare_heights(heights, map, pattern.wrap).explained;
+    return found;
+}
+
 }  // namespace
 
 HeightMap damaged(const Image& map, Damage damage, const std::string& folder) {
@@ -83,30 +106,22 @@ HeightMap damaged(const Image& map, Damage damage, const std::string& folder) {
 }
 
 Found find_pattern_of(const HeightMap& map, const Pattern& like) {
-    Found found;
     const double begun = processor_seconds();
     VectorizeOptions options;
     options.size = like.size;
     options.depth = like.depth;
     options.wrap = like.wrap == Wrap::repeat ? WrapChoice::repeat : WrapChoice::clamp;
     options.threads = 1;
-    found.pattern = value_or_leave(vectorize_map(map, options)).pattern;
+    const Pattern traced = value_or_leave(vectorize_map(map, options)).pattern;
+    Found found = value_or_leave(stored(traced, map.image));
+    Pattern refined = traced;
     RefineOptions refinement;
     refinement.threads = 1;
-    if (!found.pattern.paths.empty()) value_or_leave(refine_pattern(found.pattern, map.image, refinement));
-    const ResolvedPattern resolved = value_or_leave(resolve_pattern(found.pattern, {.lenient = true}));
-    GridOptions grid_options;
-    grid_options.threads = 1;
-    const PackedTextures textures = value_or_leave(pack_textures(resolved, value_or_leave(build_grid(resolved, grid_options))));
+    if (!traced.paths.empty() && refine_pattern(refined, map.image, refinement)) {
+        Result<Found> better = stored(refined, map.image);
+        if (better && better->explained >= found.explained) found = std::move(*better);
+    }
     found.seconds = processor_seconds() - begun;
-    found.stored = value_or_leave(unpack_textures(textures, describe_pattern(resolved, textures))).pattern;
-    found.texture_bytes = (textures.grid.size() + textures.data.size()) * sizeof(std::uint32_t);
-    found.elements = found.stored.elements.size();
-    RasterizeOptions drawing;
-    drawing.threads = 1;
-    drawing.level_tolerance = 4e-5;
-    const Image heights = rasterize_height(found.stored, map.image.width, map.image.height, drawing);
-    found.explained = compare_heights(heights, map.image, like.wrap).explained;
     return found;
 }
 

@@ -166,10 +166,11 @@ Converted converted(const Image& image) {
 // Noise and hills can be "explained" by sheer number of paths: what is said must be that they are not path-like.
 TEST(VectorizeMaps, NoiseAndTerrainAreNotPathLike) {
     Uniform random(seed_of_run());
-    Image noise(kTexels, kTexels), terrain(kTexels, kTexels);
+    constexpr int kSide = 128;
+    Image noise(kSide, kSide), terrain(kSide, kSide);
     for (float& v : noise.texels) v = static_cast<float>(random(0, 1));
-    for (double period = 80.0, share = 0.5; period > 2.0; period *= 0.5, share *= 0.5) {
-        const Image octave = clouds(kTexels, kTexels, period, random);
+    for (double period = 50.0, share = 0.5; period > 2.0; period *= 0.5, share *= 0.5) {
+        const Image octave = clouds(kSide, kSide, period, random);
         for (std::size_t i = 0; i < terrain.texels.size(); ++i) terrain.texels[i] += static_cast<float>(share) * octave.texels[i];
     }
     for (const Image* map : {&noise, &terrain}) {
