@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <burin/image.hpp>
 #include <burin/pattern.hpp>
 
 namespace burin::bench {
@@ -19,11 +20,14 @@ inline constexpr int kPatternTexels = 512;
 
 struct Subject {
     std::string name;
-    Pattern (*draw)(double wall);  // width of every wall, texels
+    Pattern (*draw)(double wall);       // width of every wall, texels
+    void (*spoil)(Image&) = nullptr;    // what is done to its map
 };
 
 // In the order of the table.
 const std::vector<Subject>& subjects();
+// Measured on demand: patterns_trials.cpp.
+const std::vector<Subject>& trials();
 
 // Lines and how they meet: patterns_lines.cpp.
 Pattern draw_grid(double wall);

@@ -1,13 +1,14 @@
 // The vectorizer against authored truth: twenty patterns, walls of 2 and of 0.4 texel, from maps of 16 bit, 8 bit and JPEG
 // of quality 85. Prints a Markdown table of contours, heights, sizes and structure, and a summary.
 //
-//     vectorizer [--only NAME,NAME] [--walls 2|0.4] [--damage 16|8|jpeg] [--zoom 2048] [--jobs N]
-//                [--worst-pictures FOLDER] [--spots N] [--misses yes] [--patterns FOLDER]
+//     vectorizer [--trials yes] [--only NAME,NAME] [--walls 2|0.4] [--damage 16|8|jpeg] [--zoom 2048]
+//                [--jobs N] [--worst-pictures FOLDER] [--spots N] [--misses yes] [--patterns FOLDER]
 //
-// --zoom: side of the surfaces that level lines are drawn from. --jobs: maps worked on at a time, each on one thread.
-// --worst-pictures: a close-up per row of the 16 x 16 texels that add most to the contours' mean square: true lines green,
-// ours red, paths blue. --spots: how many such places are listed below each row. --misses yes: what of the structure does
-// not match is listed too. --patterns: writes the maps there and does no more.
+// --trials yes: instead of the twenty, maps with grain, shading, clouds and what else breaks tracers. --zoom: side of the
+// surfaces that level lines are drawn from. --jobs: maps worked on at a time, each on one thread. --worst-pictures: a
+// close-up per row of the 16 x 16 texels that add most to the contours' mean square: true lines green, ours red, paths
+// blue. --spots: how many such places are listed below each row. --misses yes: what of the structure does not match is
+// listed too. --patterns: writes the maps there and does no more.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -37,6 +38,7 @@ struct Options {
     std::vector<std::string> only;
     std::vector<double> walls{2.0, 0.4};
     std::vector<Damage> damages{Damage::sixteen_bit, Damage::eight_bit, Damage::jpeg};
+    bool trials = false;
     int zoom = 2048, jobs = 2;
     Details details;
     std::string pictures, patterns;
@@ -58,6 +60,7 @@ Truth truth_of(const Subject& subject, double wall, int zoom) {
     const ResolvedPattern resolved = resolved_or_exit(truth.pattern, false);
     truth.map = sampled(resolved, kPatternTexels, 40, 1);
     truth.twice = sampled(resolved, 2 * kPatternTexels, 20, 1);
+    if (subject.spoil) subject.spoil(truth.map), subject.spoil(truth.twice);
     truth.surface = sampled(resolved, zoom, kSurfaceSamples, 1);
     truth.lines = lines_of(truth.surface, truth.heights, kPatternTexels);
     return truth;
@@ -125,6 +128,8 @@ Damage damage_of(const std::string& word) {
     refuse("--damage " + word + ": 16, 8 or jpeg");
 }
 
+const std::vector<Subject>& asked(const Options& options) { return options.trials ? trials() : subjects(); }
+
 Options read_options(int argc, char** argv) {
     Options options;
     for (int i = 1; i < argc; i += 2) {
@@ -132,6 +137,7 @@ Options read_options(int argc, char** argv) {
         if (i + 1 == argc) refuse(name + " needs a value");
         const char* value = argv[i + 1];
         if (name == "--only") options.only = words(value);
+        else if (name == "--trials") options.trials = std::string(value) == "yes";
         else if (name == "--walls") options.walls = {std::atof(value)};
         else if (name == "--damage") options.damages = {damage_of(value)};
         else if (name == "--zoom") options.zoom = std::atoi(value);
@@ -145,7 +151,7 @@ Options read_options(int argc, char** argv) {
     if (options.zoom < 4 * kPatternTexels || options.zoom > 32 * kPatternTexels) refuse("--zoom lies between 2048 and 16384");
     if (options.jobs < 1) refuse("--jobs is 1 or more");
     for (const std::string& name : options.only)
-        if (std::none_of(subjects().begin(), subjects().end(), [&](const Subject& s) { return s.name == name; }))
+        if (std::none_of(asked(options).begin(), asked(options).end(), [&](const Subject& s) { return s.name == name; }))
             refuse("--only " + name + ": no such pattern");
     return options;
 }
@@ -204,7 +210,7 @@ void work(const Options& options, std::vector<Task>& tasks, std::atomic<std::siz
 int run(const Options& options) {
     std::vector<Task> tasks;
     for (const double wall : options.walls)
-        for (const Subject& subject : subjects())
+        for (const Subject& subject : asked(options))
             if (wanted(options, subject)) tasks.push_back({&subject, wall, {}, false});
     if (!options.pictures.empty()) std::filesystem::create_directories(options.pictures);
     Table table(tasks, options.details);
@@ -220,7 +226,7 @@ int run(const Options& options) {
 
 int write_patterns(const Options& options) {
     std::filesystem::create_directories(options.patterns);
-    for (const Subject& subject : subjects()) {
+    for (const Subject& subject : asked(options)) {
         if (!wanted(options, subject)) continue;
         const std::string path = options.patterns + "/" + subject.name + ".png";
         const Status written =

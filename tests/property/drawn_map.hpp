@@ -1,15 +1,16 @@
 // Maps drawn for a test, and what the vectorizer makes of them.
 #pragma once
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <random>
 
 #include "../../bench/resolution/authored.hpp"
 #include "../../bench/resolution/contour.hpp"
 #include "../../bench/resolution/drawing.hpp"
 #include "../../bench/resolution/level_lines.hpp"
 #include "../../bench/resolution/start.hpp"
+#include "../../bench/vectorizer/spoil.hpp"
 #include "../../bench/vectorizer/structure.hpp"
 
 namespace burin::testing {
@@ -62,14 +63,7 @@ inline unsigned seed_of_run() {
     return seed;
 }
 
-class Uniform {
-  public:
-    explicit Uniform(unsigned seed) : random_(seed) {}
-    double operator()(double low, double high) { return low + (high - low) * (random_() / 4294967296.0); }
-
-  private:
-    std::mt19937 random_;
-};
+using bench::Uniform;
 
 inline Vec2 toward(double angle, double radius) { return Vec2{std::cos(angle), std::sin(angle)} * radius; }
 inline double degrees(double d) { return d * bench::kQuarter / 90.0; }
