@@ -122,7 +122,7 @@ Converted converted(const Image& image) {
 
 // Noise can be "explained" by sheer number of paths; hills are smooth enough for a few. Neither may fill the textures.
 TEST(VectorizeMaps, NoiseAndTerrainAreNotTracedToPieces) {
-    constexpr int kSide = 128;
+    constexpr int kSide = 96;
     Uniform random(seed_of_run());
     Image noise(kSide, kSide), terrain(kSide, kSide);
     for (float& v : noise.texels) v = static_cast<float>(random(0, 1));
