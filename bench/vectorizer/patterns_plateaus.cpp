@@ -186,7 +186,7 @@ Pattern draw_tile(double wall) {
     const Pen groove = d.groove(6.0, 0.4), thin = d.groove(4.0, 0.4), rise = d.step(0.3);
     for (int row = 0; row < 3; ++row) {
         // Two waves a tile; the joints lie on the middle line, where the tangents of neighbours agree.
-        const double y = 24.6 + 40.0 * row;
+        const double y = 50.6 + 40.0 * row;
         Stroke wave({0.0, y});
         for (int i = 0; i < 4; ++i) wave.quadratic({64.0 + 128.0 * i, y + (i % 2 ? -22.0 : 22.0)}, {128.0 * (i + 1), y});
         d.draw(row == 1 ? thin : groove, wave.close_across());
@@ -194,7 +194,7 @@ Pattern draw_tile(double wall) {
     d.draw(thin, polyline({{20.3, 170.0}, {20.3 + 512.0, 170.0 + 512.0}}).close_across());
     d.draw(groove, polyline({{430.2, 0.0}, {430.2, 512.0}}).close_across());
     d.draw(groove, circle({500.0, 300.0}, 44.0));
-    d.draw(rise, slab({250.0, 500.0}, {60.0, 30.0}, 8.0, 0.0));
+    d.draw(rise, slab({250.0, 503.0}, {60.0, 30.0}, 8.0, 0.0));
     d.draw(rise, slab({3.0, 200.0}, {40.0, 26.0}, 8.0, 0.2));
     d.draw(rise, circle({120.0, 400.0}, 40.0));
     d.draw(rise, circle({330.0, 240.0}, 52.0));
