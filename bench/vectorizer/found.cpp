@@ -6,17 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 
 #include <OpenImageIO/imageio.h>
 
-#include <burin/compare.hpp>
-#include <burin/grid.hpp>
+#include <burin/convert.hpp>
 #include <burin/image_io.hpp>
 #include <burin/pack.hpp>
-#include <burin/rasterize.hpp>
-#include <burin/refine.hpp>
-#include <burin/vectorize.hpp>
 
 namespace burin::bench {
 namespace {
@@ -66,29 +61,6 @@ void write_fine(const std::string& path, Image map) {
     value_or_leave(write_height(path, map));
 }
 
-// The pattern packed and read back, and what it explains then.
-Result<Found> stored(const Pattern& pattern, const Image& map) {
-    const auto resolved = resolve_pattern(pattern, {.lenient = true});
-    if (!resolved) return resolved.error();
-    GridOptions grid_options;
-    grid_options.threads = 1;
-    const auto grid = build_grid(*resolved, grid_options);
-    if (!grid) return grid.error();
-    const auto textures = pack_textures(*resolved, *grid);
-    if (!textures) return textures.error();
-    Found found;
-    found.pattern = pattern;
-    found.stored = value_or_leave(unpack_textures(*textures, describe_pattern(*resolved, *textures))).pattern;
-    found.texture_bytes = (textures->grid.size() + textures->data.size()) * sizeof(std::uint32_t);
-    found.elements = found.stored.elements.size();
-    RasterizeOptions drawing;
-    drawing.threads = 1;
-    drawing.level_tolerance = 4e-5;
-    const Image heights = rasterize_height(found.stored, map.width, map.height, drawing);
-    found.explained = compare_heights(heights, map, pattern.wrap).explained;
-    return found;
-}
-
 }  // namespace
 
 HeightMap damaged(const Image& map, Damage damage, const std::string& folder) {
@@ -105,23 +77,21 @@ HeightMap damaged(const Image& map, Damage damage, const std::string& folder) {
     return read;
 }
 
-Found find_pattern_of(const HeightMap& map, const Pattern& like) {
-    const double begun = processor_seconds();
-    VectorizeOptions options;
-    options.size = like.size;
-    options.depth = like.depth;
-    options.wrap = like.wrap == Wrap::repeat ? WrapChoice::repeat : WrapChoice::clamp;
+Found found_in(const HeightMap& map, const Pattern& like) {
+    ConvertOptions options;
+    options.vectorize.size = like.size;
+    options.vectorize.depth = like.depth;
+    options.vectorize.wrap = like.wrap == Wrap::repeat ? WrapChoice::repeat : WrapChoice::clamp;
     options.threads = 1;
-    const Pattern traced = value_or_leave(vectorize_map(map, options)).pattern;
-    Found found = value_or_leave(stored(traced, map.image));
-    Pattern refined = traced;
-    RefineOptions refinement;
-    refinement.threads = 1;
-    if (!traced.paths.empty() && refine_pattern(refined, map.image, refinement)) {
-        Result<Found> better = stored(refined, map.image);
-        if (better && better->explained >= found.explained) found = std::move(*better);
-    }
+    const double begun = processor_seconds();
+    FoundPattern pattern = value_or_leave(find_pattern(map, options));
+    Found found;
     found.seconds = processor_seconds() - begun;
+    found.stored = value_or_leave(unpack_textures(pattern.textures, pattern.detail)).pattern;
+    found.pattern = std::move(pattern.pattern);
+    found.texture_bytes = pattern.stats.grid_bytes + pattern.stats.data_bytes;
+    found.elements = found.stored.elements.size();
+    found.explained = pattern.stats.explained;
     return found;
 }
 

@@ -21,11 +21,11 @@ struct Found {
     std::size_t texture_bytes = 0;  // both textures
     std::size_t elements = 0;
     double explained = 0.0;  // of the damaged map (DESIGN 7)
-    double seconds = 0.0;    // processor time of the calling thread, from the map to the textures and back
+    double seconds = 0.0;    // processor time of the calling thread, from the map to the textures and their figures
 };
 
-// On one thread, as a conversion does it: what the refinement makes worse, or what cannot be stored, is not kept. `like`
-// tells size, depth and wrap. Exits with a message when a stage fails.
-Found find_pattern_of(const HeightMap& map, const Pattern& like);
+// All of a conversion but the model, on one thread and within its usual budget of bytes; `like` tells size, depth and wrap.
+// Exits with a message when a stage fails.
+Found found_in(const HeightMap& map, const Pattern& like);
 
 }  // namespace burin::bench

@@ -88,7 +88,7 @@ Row measure(const Options& options, const std::string& name, double wall, Damage
             const std::string& folder) {
     Row row{.subject = name, .wall = wall, .damage = damage};
     const HeightMap map = damaged(truth.map, damage, folder);
-    const Found found = find_pattern_of(map, truth.pattern);
+    const Found found = found_in(map, truth.pattern);
     const Image surface = sampled(found.stored, options.zoom, kSurfaceSamples, 1);
     const std::vector<Segment> lines = lines_of(surface, truth.heights, kPatternTexels);
     row.contour = distance_between(truth.lines, lines);
