@@ -105,9 +105,17 @@ struct State {
     Parameters parameters;
     std::vector<ElementUnknowns> elements;
     Prediction prediction;
-    double damping = kFirstDamping;      // that the last step was taken with
+    std::vector<double> damping;         // by unknown
     std::vector<std::uint8_t> resolves;  // by path: whether anything is left of it once it is resolved
 };
+
+double typical_damping(const State& state) {
+    std::vector<double> damping = state.damping;
+    if (damping.empty()) return kFirstDamping;
+    const auto middle = damping.begin() + static_cast<std::ptrdiff_t>(damping.size() / 2);
+    std::nth_element(damping.begin(), middle, damping.end());
+    return *middle;
+}
 
 // Over the whole map: patterns whose features cover different texels compare fairly.
 double misfit(const Prediction& prediction, double threshold) {
@@ -149,7 +157,8 @@ class Refinement {
     Result<State> run(const Pattern& start, const Model& model, double damping, RefineReport& report) const {
         Pattern tied = start;
         Parameters parameters(tied, options_);
-        State best{std::move(tied), std::move(parameters), {}, {}, damping, {}};
+        const std::vector<double> dampings(parameters.count(), damping);
+        State best{std::move(tied), std::move(parameters), {}, {}, dampings, {}};
         const Result<ResolvedPattern> begun = resolve_pattern(best.pattern, resolve_options());
         if (!begun) return begun.error();
         predict(best, *begun, model, 1e30);
@@ -161,19 +170,19 @@ class Refinement {
             NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
             equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
             ++report.iterations;
-            State next{best.pattern, best.parameters, {}, {}, damping, {}};
-            const Result<ResolvedPattern> resolved = take_step(best, equations, damping, next);
+            State next{best.pattern, best.parameters, {}, {}, best.damping, {}};
+            const Result<ResolvedPattern> resolved = take_step(best, equations, next);
             if (resolved) predict(next, *resolved, model, threshold_of(deviation));
             const double before = cost_of(best, deviation);
             const double after = resolved ? cost_of(next, deviation) : 1e300;
+            if (!resolved) return best;
+            adapt_damping(best, next, threshold_of(deviation), refused > 0, after < before);
             if (after >= before) {
-                damping = std::max(10.0 * damping, 1e-2);
                 ++refused;
+                best.damping = next.damping;
                 continue;
             }
             best = std::move(next);
-            // What was too little damping a step ago is so still: a refused step costs as much as one that is taken.
-            if (refused == 0) damping = std::max(0.1 * damping, 1e-6);
             refused = 0;
             if (before - after < model.settled * before) break;
         }
@@ -191,7 +200,7 @@ class Refinement {
             if (moved.empty()) return pattern;
             const Result<Prediction> after = look(settled, kRough);
             if (!after) return pattern;
-            const std::vector<float> gains = gains_of(*before, *after);
+            const std::vector<float> gains = gains_of(*before, *after, kRoughThreshold);
             bool any_held = false;
             for (const MovedEnd& end : moved) {
                 if (sum_within(gains, end.window) > 0.0) continue;
@@ -224,13 +233,30 @@ class Refinement {
         return resolves;
     }
 
+    // Unknowns that made their texels worse are damped more, the others less: a place where the model leaps does not keep
+    // all the rest from moving.
+    void adapt_damping(const State& from, State& next, double threshold, bool refused_before, bool accepted) const {
+        const std::vector<float> gains = gains_of(from.prediction, next.prediction, threshold);
+        std::vector<double> of_elements(from.elements.size(), 0.0), of_unknowns(next.damping.size(), 0.0);
+        for (const Residual& r : from.prediction.residuals)
+            if (r.element >= 0) of_elements[r.element] += gains[r.texel];
+        for (std::size_t e = 0; e < of_elements.size(); ++e)
+            for (const int unknown : from.elements[e].unknowns) of_unknowns[unknown] += of_elements[e];
+        for (std::size_t i = 0; i < of_unknowns.size(); ++i) {
+            double& damping = next.damping[i];
+            if (of_unknowns[i] < 0.0) damping = std::max(10.0 * damping, 1e-2);
+            // What was too little damping a step ago is so still.
+            if (of_unknowns[i] >= 0.0 && accepted && !refused_before) damping = std::max(0.1 * damping, 1e-6);
+        }
+    }
+
     // Moves `next` on from `from`. Paths that would then resolve no more, since a step path of theirs crosses another, stay
     // where they are from now on: shorter steps of everything else would not help them.
-    Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, double damping, State& next) const {
+    Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, State& next) const {
         for (int round = 0;; ++round) {
             next.pattern = from.pattern;
             next.parameters = from.parameters;
-            next.parameters.apply(equations.step(damping, from.parameters.held()), options_.max_shift_texels, next.pattern);
+            next.parameters.apply(equations.step(from.damping, from.parameters.held()), options_.max_shift_texels, next.pattern);
             Result<ResolvedPattern> resolved = resolve_pattern(next.pattern, resolve_options());
             if (!resolved || round == kHoldRounds) return resolved;
             const std::vector<std::uint8_t> resolves = resolving_paths(next.pattern, *resolved);
@@ -251,10 +277,10 @@ class Refinement {
     }
 
     // How much less the second prediction is off at each texel.
-    std::vector<float> gains_of(const Prediction& before, const Prediction& after) const {
+    std::vector<float> gains_of(const Prediction& before, const Prediction& after, double threshold) const {
         std::vector<float> gains(map_.texels.size(), 0.0f);
         const auto add = [&](const std::vector<Residual>& residuals, double sign) {
-            for (const Residual& r : residuals) gains[r.texel] += static_cast<float>(sign * robust_cost(r, kRoughThreshold));
+            for (const Residual& r : residuals) gains[r.texel] += static_cast<float>(sign * robust_cost(r, threshold));
         };
         add(before.residuals, 1.0), add(before.far, 1.0);
         add(after.residuals, -1.0), add(after.far, -1.0);
@@ -354,7 +380,7 @@ std::vector<ElementIndex> strained_quadratics(const State& state) {
 bool keep_better(const Refinement& refinement, const Pattern& candidate, double share, State& best,
                  RefineReport& report) {
     RefineReport trial = report;
-    Result<State> state = refinement.run(candidate, kRough, best.damping, trial);
+    Result<State> state = refinement.run(candidate, kRough, typical_damping(best), trial);
     if (!state) return false;
     const double threshold = threshold_of(deviation_of(best.prediction.residuals));
     if (misfit(state->prediction, threshold) > share * misfit(best.prediction, threshold)) return false;
@@ -398,10 +424,10 @@ Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const Re
     RefineReport report;
     const Result<State> rough = refine_roughly(refinement, start, options, report);
     if (!rough) return rough.error();
-    const Result<State> close = refinement.run(rough->pattern, kClose, rough->damping, report);
+    const Result<State> close = refinement.run(rough->pattern, kClose, typical_damping(*rough), report);
     if (!close) return close.error();
     const Model exact = exact_model(deviation_of(close->prediction.residuals));
-    const Result<State> best = refinement.run(close->pattern, exact, close->damping, report);
+    const Result<State> best = refinement.run(close->pattern, exact, typical_damping(*close), report);
     if (!best) return best.error();
     const Result<Prediction> before = refinement.look(start, exact);
     if (!before) return before.error();
