@@ -377,10 +377,10 @@ std::vector<ElementIndex> strained_quadratics(const State& state) {
 }
 
 // Refines `candidate` and puts it in the place of `best` when its misfit is at most `share` of the best one's.
-bool keep_better(const Refinement& refinement, const Pattern& candidate, double share, State& best,
+bool keep_better(const Refinement& refinement, const Model& model, const Pattern& candidate, double share, State& best,
                  RefineReport& report) {
     RefineReport trial = report;
-    Result<State> state = refinement.run(candidate, kRough, typical_damping(best), trial);
+    Result<State> state = refinement.run(candidate, model, typical_damping(best), trial);
     if (!state) return false;
     const double threshold = threshold_of(deviation_of(best.prediction.residuals));
     if (misfit(state->prediction, threshold) > share * misfit(best.prediction, threshold)) return false;
@@ -389,8 +389,14 @@ bool keep_better(const Refinement& refinement, const Pattern& candidate, double 
     return true;
 }
 
-// First with the profiles as they came, symmetric ones made so; then, where it costs little, with fewer points: a
-// section measured through the blur of the texels has rounded corners, which the first stage has straightened.
+// With fewer points where that costs little: a section measured through the blur of the texels has rounded corners, which
+// the fit before has straightened.
+void keep_simpler(const Refinement& refinement, const Model& model, State& best, RefineReport& report) {
+    Pattern simpler = best.pattern;
+    if (simplify_profiles(simpler)) keep_better(refinement, model, simpler, kSimplerMayCost, best, report);
+}
+
+// First with the profiles as they came, symmetric ones made so; then simpler ones, and more elements where they are too few.
 Result<State> refine_roughly(const Refinement& refinement, const Pattern& start, const RefineOptions& options,
                              RefineReport& report) {
     Pattern first = start;
@@ -399,14 +405,13 @@ Result<State> refine_roughly(const Refinement& refinement, const Pattern& start,
     if (options.ends) first = refinement.with_settled_ends(first);
     Result<State> best = refinement.run(first, kRough, kFirstDamping, report);
     if (!best) return best;
-    Pattern simpler = best->pattern;
-    if (options.profiles && simplify_profiles(simpler)) keep_better(refinement, simpler, kSimplerMayCost, *best, report);
+    if (options.profiles) keep_simpler(refinement, kRough, *best, report);
     for (int round = 0; round < kSplitRounds && options.positions && options.elements; ++round) {
         const std::vector<ElementIndex> strained = strained_quadratics(*best);
         if (strained.empty()) break;
         Pattern split = best->pattern;
         split_quadratics(split, strained);
-        if (!keep_better(refinement, split, kSplitMustGain, *best, report)) break;
+        if (!keep_better(refinement, kRough, split, kSplitMustGain, *best, report)) break;
     }
     return best;
 }
@@ -424,8 +429,9 @@ Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const Re
     RefineReport report;
     const Result<State> rough = refine_roughly(refinement, start, options, report);
     if (!rough) return rough.error();
-    const Result<State> close = refinement.run(rough->pattern, kClose, typical_damping(*rough), report);
+    Result<State> close = refinement.run(rough->pattern, kClose, typical_damping(*rough), report);
     if (!close) return close.error();
+    if (options.profiles) keep_simpler(refinement, kClose, *close, report);
     const Model exact = exact_model(deviation_of(close->prediction.residuals));
     const Result<State> best = refinement.run(close->pattern, exact, typical_damping(*close), report);
     if (!best) return best.error();
