@@ -109,14 +109,6 @@ struct State {
     std::vector<std::uint8_t> resolves;  // by path: whether anything is left of it once it is resolved
 };
 
-double typical_damping(const State& state) {
-    std::vector<double> damping = state.damping;
-    if (damping.empty()) return kFirstDamping;
-    const auto middle = damping.begin() + static_cast<std::ptrdiff_t>(damping.size() / 2);
-    std::nth_element(damping.begin(), middle, damping.end());
-    return *middle;
-}
-
 // Over the whole map: patterns whose features cover different texels compare fairly.
 double misfit(const Prediction& prediction, double threshold) {
     return robust_cost(prediction.residuals, threshold) + robust_cost(prediction.far, threshold);
@@ -154,11 +146,11 @@ class Refinement {
     }
 
     // Damped Gauss-Newton steps from `start` until nothing is gained.
-    Result<State> run(const Pattern& start, const Model& model, double damping, RefineReport& report) const {
+    Result<State> run(const Pattern& start, const Model& model, RefineReport& report) const {
         Pattern tied = start;
         Parameters parameters(tied, options_);
-        const std::vector<double> dampings(parameters.count(), damping);
-        State best{std::move(tied), std::move(parameters), {}, {}, dampings, {}};
+        const std::vector<double> damping(parameters.count(), kFirstDamping);
+        State best{std::move(tied), std::move(parameters), {}, {}, damping, {}};
         const Result<ResolvedPattern> begun = resolve_pattern(best.pattern, resolve_options());
         if (!begun) return begun.error();
         predict(best, *begun, model, 1e30);
@@ -380,7 +372,7 @@ std::vector<ElementIndex> strained_quadratics(const State& state) {
 bool keep_better(const Refinement& refinement, const Model& model, const Pattern& candidate, double share, State& best,
                  RefineReport& report) {
     RefineReport trial = report;
-    Result<State> state = refinement.run(candidate, model, typical_damping(best), trial);
+    Result<State> state = refinement.run(candidate, model, trial);
     if (!state) return false;
     const double threshold = threshold_of(deviation_of(best.prediction.residuals));
     if (misfit(state->prediction, threshold) > share * misfit(best.prediction, threshold)) return false;
@@ -403,7 +395,7 @@ Result<State> refine_roughly(const Refinement& refinement, const Pattern& start,
     if (options.profiles) make_symmetric(first);
     if (options.elements) first = refinement.with_tidy_tails(refinement.with_curves(first));
     if (options.ends) first = refinement.with_settled_ends(first);
-    Result<State> best = refinement.run(first, kRough, kFirstDamping, report);
+    Result<State> best = refinement.run(first, kRough, report);
     if (!best) return best;
     if (options.profiles) keep_simpler(refinement, kRough, *best, report);
     for (int round = 0; round < kSplitRounds && options.positions && options.elements; ++round) {
@@ -429,11 +421,11 @@ Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const Re
     RefineReport report;
     const Result<State> rough = refine_roughly(refinement, start, options, report);
     if (!rough) return rough.error();
-    Result<State> close = refinement.run(rough->pattern, kClose, typical_damping(*rough), report);
+    Result<State> close = refinement.run(rough->pattern, kClose, report);
     if (!close) return close.error();
     if (options.profiles) keep_simpler(refinement, kClose, *close, report);
     const Model exact = exact_model(deviation_of(close->prediction.residuals));
-    const Result<State> best = refinement.run(close->pattern, exact, typical_damping(*close), report);
+    const Result<State> best = refinement.run(close->pattern, exact, report);
     if (!best) return best.error();
     const Result<Prediction> before = refinement.look(start, exact);
     if (!before) return before.error();
