@@ -82,7 +82,7 @@ TEST(VectorizeMaps, FewLevelsAreEnough) {
     expect_found(r, 0.1);
 }
 
-TEST(VectorizeMaps, BoltsAndSlotsKeepTheirPlaces) {
+TEST(VectorizeMaps, BoltsAndSlotsAreOnePathEach) {
     Uniform random(seed_of_run());
     DrawnMap map(1.0, 0.5);
     const Pen bolt = map.pens().step(0.4), slot = map.pens().step(-0.4);
@@ -92,11 +92,12 @@ TEST(VectorizeMaps, BoltsAndSlotsKeepTheirPlaces) {
     }
     const Recovered r = recovered_from(map.take());
     report("bolts and slots", r);
+    EXPECT_EQ(r.structure.paths.recovered, r.structure.paths.authored);
     EXPECT_EQ(r.contour.lost, 0.0);
-    EXPECT_LT(r.contour.rms, 0.5);
+    EXPECT_LT(r.contour.rms, 0.05);
 }
 
-TEST(VectorizeMaps, RaggedEdgesKeepTheirPlaces) {
+TEST(VectorizeMaps, RaggedEdgesStayOneOutline) {
     Uniform random(seed_of_run());
     DrawnMap map(1.0, 0.4);
     std::vector<Vec2> outline;
@@ -106,6 +107,7 @@ TEST(VectorizeMaps, RaggedEdgesKeepTheirPlaces) {
     const Pattern drawing = map.take();
     const Recovered r = recovered_from(drawing);
     report("ragged edge", r);
+    EXPECT_EQ(r.pattern.paths.size(), 1u);
     EXPECT_EQ(r.contour.lost, 0.0);
     EXPECT_LT(r.contour.rms, 0.3);
 }

@@ -147,6 +147,21 @@ TEST(VectorizeStrokes, HexagonsMeetInThrees) {
     EXPECT_EQ(r.contour.lost, 0.0);
 }
 
+// One path, or the clean outline of a pit: no second centre line, no edge on its own.
+TEST(VectorizeStrokes, WideFlatGroovesAreFoundOnce) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.5);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28);
+        map.draw(map.pens().groove(14.0 + 6.0 * i, kDepth),
+                 polyline({map.field(i) - toward(along, 40), map.field(i) + toward(along, 40)}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("wide grooves", r);
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_LT(r.contour.rms, 0.02);
+}
+
 // Both ways: the upper of two ridges runs on over the lower, which is one path all the same.
 TEST(VectorizeStrokes, RidgesCrossOverAndUnder) {
     Uniform random(seed_of_run());
