@@ -3,8 +3,8 @@
 
 #include <burin/compare.hpp>
 #include <burin/model.hpp>
-#include <burin/pack.hpp>
 #include <burin/rasterize.hpp>
+#include <burin/reconstruct.hpp>
 
 #include "asset_file.hpp"
 #include "command.hpp"
@@ -24,12 +24,8 @@ Result<Image> reconstruct(const Arguments& arguments, const Asset& asset, std::s
         options.backend = backend_of(arguments);
         return render_top(asset, map.width, map.height, options);
     }
-    auto unpacked = unpack_textures(info.textures, info.detail);
-    if (!unpacked) return unpacked.error();
-    RasterizeOptions options;
-    options.threads = arguments.integer("--threads");
-    options.level_tolerance = 4e-5;  // levels and heights come from 16-bit codes
-    return rasterize_height(unpacked->pattern, map.width, map.height, options);
+    return reconstruct_heights(info.textures, info.detail, map.width, map.height,
+                               {.threads = arguments.integer("--threads")});
 }
 
 void add_heights(Report& report, const Comparison& figures) {

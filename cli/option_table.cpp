@@ -17,6 +17,7 @@ constexpr auto integer = OptionKind::integer;
 constexpr auto choice = OptionKind::choice;
 constexpr auto extent = OptionKind::extent;
 constexpr auto pixels = OptionKind::pixels;
+constexpr auto bytes = OptionKind::bytes;
 constexpr auto numbers = OptionKind::numbers;
 
 std::string plain(double value) {
@@ -37,27 +38,36 @@ std::vector<OptionSpec> make_table() {
         {"--output,-o", "convert", text, "OUT.glb", "", "", 0, 0, "", true, "the asset to write"},
         {"--output,-o", "render", text, "PICTURE", "", "", 0, 0, "", true,
          "the picture to write: .png; with --top also .exr or .tif"},
+        {"--output,-o", "vectorize", text, "PATHS.svg", "", "", 0, 0, "", true, "the drawing to write"},
         {"--against", "check", text, "MAP", "", "", 0, 0, "", true, "the height map the asset was made from"},
 
         {"--model", "convert", text, "FILE", "", "", 0, 0, "", false,
          "put the pattern on this glTF, glb or obj; without it, on a rectangle"},
         {"--material", "convert check", text, "NAME", "", "", 0, 0, "", false,
          "which material, where the file has several"},
-        {"--size", "convert", extent, "W[xH]", "m", "1", 1e-6, 1e6, "", false,
+        {"--size", "convert vectorize", extent, "W[xH]", "m", "1", 1e-6, 1e6, "", false,
          "extent of the map along u and v; H follows from the map when left out"},
-        {"--depth", "convert", number, "METRES", "m", depth, 1e-9, 1e5, "", false,
+        {"--depth", "convert vectorize", number, "METRES", "m", depth, 1e-9, 1e5, "", false,
          "height difference between white and black"},
-        {"--polarity", "convert check info", choice, "WHICH", "", "height", 0, 0, "height|depth", false,
+        {"--polarity", "convert vectorize check info", choice, "WHICH", "", "height", 0, 0, "height|depth", false,
          "what white means: height, the surface; depth, the deepest point"},
-        {"--channel", "convert check info", choice, "WHICH", "", "automatic", 0, 0,
+        {"--channel", "convert vectorize check info", choice, "WHICH", "", "automatic", 0, 0,
          "automatic|red|green|blue|alpha|luminance", false, "which channel of the map holds the heights"},
-        {"--wrap", "convert", choice, "WHICH", "", "automatic", 0, 0, "automatic|repeat|clamp", false,
+        {"--wrap", "convert vectorize", choice, "WHICH", "", "automatic", 0, 0, "automatic|repeat|clamp", false,
          "whether the map tiles; automatic looks at its borders"},
-        {"--max-error", "convert", number, "TEXELS", "texels", tolerance, 0, 8, "", false,
+        {"--tolerance", "convert vectorize", number, "TEXELS", "texels", tolerance, 0, 8, "", false,
          "farthest a curve may lie from the traced line; 0 chooses by the map's grain"},
+        {"--max-error", "convert vectorize", number, "PERCENT", "% of range", "", 1e-3, 100, "", false,
+         "height error that 99.9 % of the texels keep; curves come closer until they do, or an error says what works"},
+        {"--max-bytes", "convert vectorize", bytes, "BYTES", "bytes", "", 1, 1e9, "", false,
+         "most that both textures take as uploaded, K and M for KiB and MiB; paths are given up until they do"},
         {"--cell-size", "convert", number, "METRES", "m", "0", 0, 1e6, "", false,
          "side of a grid cell; 0 chooses by a cost model"},
-        {"--threads", "convert check", integer, "COUNT", "", "0", 0, 256, "", false,
+        {"--report", "convert vectorize", text, "PAGE.html", "", "", 0, 0, "", false,
+         "write a page to look at: map, error, paths, the worst places"},
+        {"--error-map", "convert vectorize", text, "PICTURE", "", "", 0, 0, "", false,
+         "write the height error: .png in colours, red too high and blue too low; .exr or .tif as numbers"},
+        {"--threads", "convert vectorize check", integer, "COUNT", "", "0", 0, 256, "", false,
          "threads to work with, 0 for all cores; the result does not depend on it"},
 
         {"--max-rms", "check", number, "PERCENT", "% of range", "", 0, 100, "", false,
@@ -93,9 +103,9 @@ std::vector<OptionSpec> make_table() {
         {"--backend", "render check", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl", false,
          "OpenGL by OSMesa, which needs no GPU, or by EGL"},
 
-        {"--format", "convert render check info validate", choice, "WHICH", "", "text", 0, 0, "text|json", false,
+        {"--format", "convert vectorize render check info validate", choice, "WHICH", "", "text", 0, 0, "text|json", false,
          "how results are printed"},
-        {"--quiet,-q", "convert render check info validate", flag, "", "", "", 0, 0, "", false,
+        {"--quiet,-q", "convert vectorize render check info validate", flag, "", "", "", 0, 0, "", false,
          "no progress and no text; errors and json stay"},
     };
 }

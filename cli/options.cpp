@@ -41,6 +41,18 @@ bool parse_number(const std::string& text, double& value) {
     return error == std::errc() && rest == end && std::isfinite(value);
 }
 
+// A whole number of bytes, or of KiB or MiB.
+bool parse_bytes(std::string text, double& value) {
+    double unit = 1.0;
+    if (!text.empty() && (text.back() == 'K' || text.back() == 'M')) {
+        unit = text.back() == 'K' ? 1024.0 : 1024.0 * 1024.0;
+        text.pop_back();
+    }
+    if (!parse_number(text, value) || value != std::floor(value)) return false;
+    value *= unit;
+    return true;
+}
+
 bool parse_numbers(const std::string& text, char separator, std::vector<double>& values) {
     values.clear();
     for (const std::string& part : split(text, separator)) {
@@ -76,6 +88,7 @@ std::string form_text(const OptionSpec& spec) {
         case OptionKind::integer: return "a whole number";
         case OptionKind::extent: return "one number or two joined by x, such as 2 or 2x1.5";
         case OptionKind::pixels: return "one whole number or two joined by x, such as 640x480";
+        case OptionKind::bytes: return "a whole number, or one with K or M behind it, such as 65536 or 64K";
         case OptionKind::numbers: return std::string("numbers as ") + spec.argument;
         default: return "a number";
     }
@@ -88,7 +101,9 @@ Status check_numbers(const OptionSpec& spec, const std::string& text) {
     const bool extent = spec.kind == OptionKind::extent || spec.kind == OptionKind::pixels;
     const bool list = spec.kind == OptionKind::numbers;
     const std::size_t wanted = list ? split(spec.argument, ',').size() : 1;
-    const bool parsed = parse_numbers(text, extent ? 'x' : list ? ',' : '\0', values);
+    const bool sized = spec.kind == OptionKind::bytes;
+    if (sized) values.resize(1);
+    const bool parsed = sized ? parse_bytes(text, values[0]) : parse_numbers(text, extent ? 'x' : list ? ',' : '\0', values);
     const bool whole = (spec.kind != OptionKind::integer && spec.kind != OptionKind::pixels) ||
                        std::all_of(values.begin(), values.end(), [](double v) { return v == std::floor(v); });
     const bool counted = extent ? values.size() <= 2 : values.size() == wanted;
@@ -231,6 +246,15 @@ Result<Request> parse_command(std::span<const char* const> words, const Command&
     return Request{Request::Kind::run, partial};
 }
 
+// As one word for a shell.
+std::string shell_word(const std::string& word) {
+    constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./,:@%";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 // "  -o, --output FILE    text" with the help in its own column.
 std::string option_line(const OptionSpec& spec) {
     const auto names = split(spec.name, ',');
@@ -282,6 +306,13 @@ double Arguments::number(const std::string& name) const {
 
 int Arguments::integer(const std::string& name) const { return static_cast<int>(number(name)); }
 
+std::uint64_t Arguments::bytes(const std::string& name) const {
+    double value = 0.0;
+    const bool parsed = parse_bytes(text(name), value);
+    assert(parsed);
+    return parsed ? static_cast<std::uint64_t>(value) : 0;
+}
+
 Result<Request> parse_arguments(std::span<const char* const> argv, std::span<const Command> commands,
                                 Arguments& partial) {
     const std::span<const char* const> words = argv.size() > 1 ? argv.subspan(1) : argv.subspan(argv.size());
@@ -294,6 +325,8 @@ Result<Request> parse_arguments(std::span<const char* const> argv, std::span<con
         names += (names.empty() ? "" : ", ") + std::string(command.name);
         if (first != command.name) continue;
         partial.command = first;
+        partial.line = "burin";
+        for (const std::string word : words) partial.line += " " + shell_word(word);
         for (const std::string word : words.subspan(1))
             if (word == "--help" || word == "-h") return Request{Request::Kind::help, partial};
         return parse_command(words.subspan(1), command, partial);

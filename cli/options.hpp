@@ -7,6 +7,7 @@
 // stages where a stage has one.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -26,6 +27,7 @@ enum class OptionKind {
     choice,   // one of `choices`, separated by |
     extent,   // one number, or two joined by x: 2 or 2x1.5; each in [low, high]
     pixels,   // an extent in whole numbers
+    bytes,    // a whole number in [low, high], with K for KiB or M for MiB behind it if one likes
     numbers,  // as many numbers as `argument` has commas plus one, each in [low, high]
 };
 
@@ -60,12 +62,14 @@ class Arguments {
   public:
     std::string command;  // "" when the arguments name none
     std::string file;     // the positional argument
+    std::string line;     // the whole command line, as a shell takes it
 
     bool given(const std::string& name) const;  // the user wrote it
     bool flag(const std::string& name) const;
     std::string text(const std::string& name) const;  // the user's text or the fallback
     double number(const std::string& name) const;
     int integer(const std::string& name) const;
+    std::uint64_t bytes(const std::string& name) const;
     std::vector<double> numbers(const std::string& name) const;  // extent, numbers
 
     std::map<std::string, std::string> values;  // by long name, as written

@@ -77,8 +77,8 @@ RenderOptions render_options(const Arguments& arguments) {
     return options;
 }
 
-// Both drawers give the size, or why nothing could be drawn; `written` says whether the file could be written.
-Result<PictureSize> draw_heights(const Arguments& arguments, const Asset& asset, Status& written) {
+// Both drawers give the size, or why nothing could be drawn; `write` then writes the picture.
+Result<PictureSize> draw_heights(const Arguments& arguments, const Asset& asset, Writer& write) {
     const auto material = find_patterned_material(asset, arguments.text("--material"));
     if (!material) return material.error();
     const PathDetail& detail = asset.materials[*material].detail;
@@ -91,7 +91,7 @@ Result<PictureSize> draw_heights(const Arguments& arguments, const Asset& asset,
     options.backend = backend_of(arguments);
     const auto heights = render_top(asset, size.width, size.height, options);
     if (!heights) return heights.error();
-    written = write_height(arguments.text("--output"), *heights);
+    write = [heights = *heights](const std::string& path) { return write_height(path, heights); };
     return size;
 }
 
@@ -123,7 +123,7 @@ Status check_camera(const Camera& camera, const Asset& asset) {
                      (camera.target ? "--target" : "the middle of the asset") + "; two different points work"};
 }
 
-Result<PictureSize> draw_view(const Arguments& arguments, const Asset& asset, Status& written) {
+Result<PictureSize> draw_view(const Arguments& arguments, const Asset& asset, Writer& write) {
     // A view shows every material; a name that no pattern has is a mistake all the same.
     if (arguments.given("--material"))
         if (const auto found = find_patterned_material(asset, arguments.text("--material")); !found) return found.error();
@@ -131,7 +131,7 @@ Result<PictureSize> draw_view(const Arguments& arguments, const Asset& asset, St
     if (const Status placed = check_camera(options.camera, asset); !placed) return placed.error();
     const auto picture = render_asset(asset, options);
     if (!picture) return picture.error();
-    written = write_png(arguments.text("--output"), *picture);
+    write = [picture = *picture](const std::string& path) { return write_png(path, picture); };
     return PictureSize{options.width, options.height};
 }
 
@@ -145,21 +145,21 @@ ExitCode run_render(const Arguments& arguments) {
     const bool top = arguments.flag("--top");
     if (const Status checked = check_output(arguments.text("--output"), top); !checked)
         return fail(arguments, ExitCode::usage, checked.error().message);
-    if (const Status other = check_not_an_input(arguments.text("--output"), {arguments.file}); !other)
+    const std::string output = arguments.text("--output");
+    if (const Status other = check_outputs({{"--output", output, {}}}, {arguments.file}); !other)
         return fail(arguments, ExitCode::usage, other.error().message);
     const auto file = read_asset_file(arguments.file);
     if (!file) return fail(arguments, code_for_input(file.error()), file.error().message);
-    Status written = Done{};
-    const auto size = top ? draw_heights(arguments, file->asset, written) : draw_view(arguments, file->asset, written);
+    Writer write;
+    const auto size = top ? draw_heights(arguments, file->asset, write) : draw_view(arguments, file->asset, write);
     if (!size) return fail(arguments, code_for_input(size.error()), size.error().message);
-    if (!written) return fail(arguments, code_for_output(written.error()), written.error().message);
 
     Report report;
     report.add({"output", "output", arguments.text("--output"), ""});
     report.add_group("pixels", "pixels",
                      {{"width", "width", std::int64_t{size->width}, ""},
                       {"height", "height", std::int64_t{size->height}, ""}});
-    return print_or_remove(arguments, report, arguments.text("--output"));
+    return write_and_print(arguments, report, {{"--output", output, write}});
 }
 
 }  // namespace burin::cli

@@ -111,6 +111,13 @@ std::string Report::as_text() const {
     return text;
 }
 
+std::vector<std::pair<std::string, std::string>> Report::lines(const std::string& but) const {
+    std::vector<std::pair<std::string, std::string>> shown_fields;
+    for (const Field& field : fields_)
+        if (!field.label.empty() && field.key != but) shown_fields.emplace_back(field.label, shown(field));
+    return shown_fields;
+}
+
 std::string Report::as_json() const {
     Json json = json_object(fields_);
     for (const Rows& rows : rows_) {

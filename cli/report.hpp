@@ -46,6 +46,9 @@ class Report {
     }
     void add_rows(Rows rows) { rows_.push_back(std::move(rows)); }
 
+    // What text shows without rows, a label and a value each, and without the field whose key is `but`.
+    std::vector<std::pair<std::string, std::string>> lines(const std::string& but) const;
+
     // Prints to stdout as --format asks, to the last byte; nothing when --quiet is given and the format is text.
     // Fails with io_failed when standard output does not take it: a full disk, a closed pipe.
     Status print(const Arguments& arguments) const;

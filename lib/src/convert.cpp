@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include <burin/compare.hpp>
-#include <burin/rasterize.hpp>
+#include <burin/reconstruct.hpp>
 
 #include "resolve_curve.hpp"
 
@@ -50,7 +52,8 @@ class StageClock {
 
 Error stopped() { return {ErrorCode::invalid_argument, "stopped on request"}; }
 
-void count_elements(const ResolvedPattern& pattern, double texels_per_metre, ConvertStats& stats) {
+// Counts what is stored, and gives the places of the paths it came from.
+std::vector<std::uint32_t> count_elements(const ResolvedPattern& pattern, double texels_per_metre, ConvertStats& stats) {
     std::vector<std::uint32_t> paths;
     for (const ResolvedElement& element : pattern.elements) {
         const bool line = element.element.kind == ElementKind::line;
@@ -59,32 +62,41 @@ void count_elements(const ResolvedPattern& pattern, double texels_per_metre, Con
         paths.push_back(element.path);
     }
     std::sort(paths.begin(), paths.end());
-    stats.paths = static_cast<int>(std::unique(paths.begin(), paths.end()) - paths.begin());
+    paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+    stats.paths = static_cast<int>(paths.size());
     stats.profiles = static_cast<int>(pattern.profiles.size());
+    return paths;
 }
 
 // Maps of lines and plateaus come above 0.5, rock and terrain stay below 0.2.
 constexpr double kPathLikeShare = 0.35;
 constexpr double kAccidentShare = 0.1;
 
-// The figures of the textures as they are stored.
+// The heights of the textures as they are stored.
+Result<Image> reconstruct(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail,
+                          const ReconstructOptions& options) {
+    auto heights = reconstruct_heights(textures, detail, map.image.width, map.image.height, options);
+    // What burin packed breaks the format: a bug, whatever the map.
+    if (!heights && heights.error().code == ErrorCode::invalid_input)
+        throw std::logic_error("the packed pattern breaks the format: " + heights.error().message);
+    return heights;
+}
+
+Comparison compare(const Image& heights, const HeightMap& map, bool repeat, int threads) {
+    const int used = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+    return compare_heights(heights, map.image, repeat ? Wrap::repeat : Wrap::clamp, used);
+}
+
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
                ConvertStats& stats) {
-    const auto unpacked = unpack_textures(textures, detail);
-    // What burin packed breaks the format: a bug, whatever the map.
-    if (!unpacked && unpacked.error().code == ErrorCode::invalid_input)
-        throw std::logic_error("the packed pattern breaks the format: " + unpacked.error().message);
-    if (!unpacked) return unpacked.error();
-    RasterizeOptions options;
-    options.threads = threads;
-    options.level_tolerance = 4e-5;  // levels and heights come from 16-bit codes
-    const Image heights = rasterize_height(unpacked->pattern, map.image.width, map.image.height, options);
-    const Comparison figures = compare_heights(heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp,
-                                               threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
+    const auto heights = reconstruct(map, textures, detail, {.threads = threads});
+    if (!heights) return heights.error();
+    const Comparison figures = compare(*heights, map, detail.repeat, threads);
     stats.explained = figures.explained;
     stats.path_like = figures.explained >= kPathLikeShare;
     stats.rms = figures.rms;
     stats.p999 = figures.p999;
+    stats.p999_without_smooth = figures.p999_without_smooth;
     stats.max = figures.max;
     return Done{};
 }
@@ -92,11 +104,8 @@ Status measure(const HeightMap& map, const PackedTextures& textures, const PathD
 struct Packed {
     PackedTextures textures;
     PathDetail detail;
+    std::vector<std::uint32_t> paths;  // of the pattern, that are stored
 };
-
-std::size_t texture_bytes(const PackedTextures& textures) {
-    return (textures.grid.size() + textures.data.size()) * sizeof(std::uint32_t);
-}
 
 // Resolve, grid, pack.
 Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const ConvertOptions& options,
@@ -106,7 +115,7 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     if (!resolved) return resolved.error();
     stats.paths = stats.lines = stats.quadratics = 0;
     stats.path_length_texels = 0.0;
-    count_elements(*resolved, map.image.width / resolved->size.x, stats);
+    std::vector<std::uint32_t> paths = count_elements(*resolved, map.image.width / resolved->size.x, stats);
     stats.dropped_paths = resolved->stats.dropped_paths;
     stats.repeat = resolved->wrap == Wrap::repeat;
 
@@ -125,7 +134,7 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     stats.data_bytes = textures->data.size() * sizeof(std::uint32_t);
     PathDetail detail = describe_pattern(*resolved, *textures);
     detail.tex_coord = options.attach.tex_coord;
-    return Packed{std::move(*textures), std::move(detail)};
+    return Packed{std::move(*textures), std::move(detail), std::move(paths)};
 }
 
 // A sixteenth of the map's 8-bit size; above 1024 x 1024 it stays at 63 KiB until that is a 128th, since a map
@@ -140,6 +149,7 @@ struct Candidate {
     Vectorized traced;
     Packed packed;
     ConvertStats stats;  // counts and figures of this candidate
+    std::size_t bytes() const { return stats.grid_bytes + stats.data_bytes; }
 };
 
 Result<Candidate> pack_candidate(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
@@ -167,47 +177,79 @@ Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, cons
     return measure_candidate(std::move(*candidate), map, options, clock);
 }
 
-// Vectorizes with ever fewer elements until the textures keep to the budget. `detail`: the map, or what of it to trace.
-Result<Candidate> trace_within(const HeightMap& detail, const HeightMap& map, const ConvertOptions& options, std::size_t budget,
-                               const Progress& progress, StageClock& clock) {
+VectorizeOptions vectorize_options(const ConvertOptions& options) {
     VectorizeOptions vectorize = options.vectorize;
     vectorize.threads = options.threads;
+    return vectorize;
+}
+
+// A map, and what of it was traced: the map itself, or the map without its soft ground.
+struct Source {
+    const HeightMap& map;
+    std::shared_ptr<const HeightMap> separated;  // null: the map itself
+    TracedMap traced;
+    const HeightMap& detail() const { return separated ? *separated : map; }
+};
+
+Result<Source> trace_source(const HeightMap& map, std::shared_ptr<const HeightMap> separated, const ConvertOptions& options,
+                            const Progress& progress, StageClock& clock) {
     if (!clock.begin("vectorize")) return stopped();
-    auto traced = trace_map(detail, vectorize, progress);
+    Source source{map, std::move(separated), {}};
+    auto traced = trace_map(source.detail(), vectorize_options(options), progress);
     if (!traced) return traced.error();
-    for (int attempt = 0;; ++attempt) {
+    source.traced = std::move(*traced);
+    return source;
+}
+
+// Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
+Result<Candidate> fit_within(const Source& source, const ConvertOptions& options, std::size_t budget,
+                             const Progress& progress, StageClock& clock) {
+    const bool asked = options.max_texture_bytes > 0;
+    const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
+    VectorizeOptions vectorize = vectorize_options(options);
+    for (int attempt = 1;; ++attempt) {
         if (!clock.begin("vectorize")) return stopped();
-        auto fitted = fit_traced_map(*traced, detail, vectorize, progress);
+        auto fitted = fit_traced_map(source.traced, source.detail(), vectorize, progress);
         if (!fitted) return fitted.error();
-        auto candidate = pack_candidate(std::move(*fitted), map, options, budget, clock);
+        auto candidate = pack_candidate(std::move(*fitted), source.map, options, budget, clock);
         if (!candidate) return candidate.error();
-        const std::size_t bytes = texture_bytes(candidate->packed.textures);
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
-        if (bytes <= budget || attempt == 3 || elements <= 16) {
-            *traced = {};  // measuring needs room of its own
-            return measure_candidate(std::move(*candidate), map, options, clock);
-        }
+        if (candidate->bytes() <= budget || attempt == most_attempts || elements <= fewest)
+            return measure_candidate(std::move(*candidate), source.map, options, clock);
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
-        vectorize.most_elements = std::max(16, static_cast<int>(most * 0.85 * static_cast<double>(budget) / bytes));
+        const double share = 0.85 * static_cast<double>(budget) / static_cast<double>(candidate->bytes());
+        vectorize.most_elements = std::max(fewest, static_cast<int>(most * share));
     }
 }
 
+struct Start {
+    Source source;
+    Candidate candidate;
+};
+
 // The map as it is, or without its soft ground where that explains more: whether a ramp is ground or the side of a wide
-// bevel shows when its paths are drawn. `detail` becomes what was traced, where that is not the map itself.
-Result<Candidate> trace_best(const HeightMap& map, std::optional<HeightMap>& detail, const ConvertOptions& options, std::size_t budget,
-                             const Progress& progress, StageClock& clock) {
+// bevel shows when its paths are drawn.
+Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                         const Progress& progress, StageClock& clock) {
     constexpr double kLeastDeviation = 0.004, kMustGain = 0.002;
-    auto candidate = trace_within(map, map, options, budget, progress, clock);
-    if (!candidate) return candidate;
+    auto source = trace_source(map, nullptr, options, progress, clock);
+    if (!source) return source.error();
+    auto candidate = fit_within(*source, options, budget, progress, clock);
+    if (!candidate) return candidate.error();
     if (!clock.begin("vectorize")) return stopped();
-    auto separated = separate_ground(map, options.vectorize);
+    // Only a bound on the error asks for closer paths later, and what was traced takes room.
+    if (options.max_error <= 0.0) source->traced = {};
+    auto separated = separate_ground(map, vectorize_options(options));
     if (!separated) return separated.error();
-    if (separated->deviation < kLeastDeviation) return candidate;
-    auto other = trace_within(separated->detail, map, options, budget, progress, clock);
-    if (!other) return other;
-    if (other->stats.explained < candidate->stats.explained + kMustGain) return candidate;
-    detail = std::move(separated->detail);
-    return other;
+    if (separated->deviation < kLeastDeviation) return Start{std::move(*source), std::move(*candidate)};
+    auto detail = std::make_shared<const HeightMap>(std::move(separated->detail));
+    auto other_source = trace_source(map, std::move(detail), options, progress, clock);
+    if (!other_source) return other_source.error();
+    auto other = fit_within(*other_source, options, budget, progress, clock);
+    if (!other) return other.error();
+    if (other->stats.explained < candidate->stats.explained + kMustGain)
+        return Start{std::move(*source), std::move(*candidate)};
+    return Start{std::move(*other_source), std::move(*other)};
 }
 
 // A step of the refinement looks at every texel within reach of every element: wide profiles on long paths would take
@@ -233,9 +275,9 @@ Unrefined reason_not_to_refine(const Candidate& candidate, const HeightMap& map,
 }
 
 // Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
-// `traced`: what the candidate was traced in, see trace_best.
-Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& traced, const HeightMap& map, const ConvertOptions& options,
+Result<Candidate> refine_candidate(Candidate candidate, const Source& source, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
+    const HeightMap& map = source.map;
     candidate.stats.unrefined = reason_not_to_refine(candidate, map, options);
     if (candidate.stats.unrefined != Unrefined::no) return candidate;
     if (!clock.begin("refine")) return stopped();
@@ -243,9 +285,10 @@ Result<Candidate> refine_candidate(Candidate candidate, const HeightMap& traced,
     RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
     Vectorized refined = candidate.traced;
-    if (!refine_pattern(refined.pattern, traced.image, refinement)) return candidate;
+    if (!refine_pattern(refined.pattern, source.detail().image, refinement)) return candidate;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
     if (!better || better->stats.explained < candidate.stats.explained) return candidate;
+    if (options.max_texture_bytes > 0 && better->bytes() > budget) return candidate;
     return better;
 }
 
@@ -259,36 +302,165 @@ Result<Candidate> without_accidents(Candidate candidate, const HeightMap& map, c
     return pack_and_measure(std::move(empty), map, options, budget, clock);
 }
 
+// A candidate without what is no path, and refined.
+Result<Candidate> finish_candidate(Candidate fitted, const Source& source, const ConvertOptions& options,
+                                   std::size_t budget, StageClock& clock) {
+    const double traced_explained = fitted.stats.explained;
+    auto candidate = without_accidents(std::move(fitted), source.map, options, budget, clock);
+    if (candidate) candidate = refine_candidate(std::move(*candidate), source, options, budget, clock);
+    if (candidate) candidate->stats.traced_explained = traced_explained;
+    return candidate;
+}
+
+Result<Start> start_within(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                           const Progress& progress, StageClock& clock) {
+    auto start = trace_best(map, options, budget, progress, clock);
+    if (!start) return start.error();
+    auto finished = finish_candidate(std::move(start->candidate), start->source, options, budget, clock);
+    if (!finished) return finished.error();
+    start->candidate = std::move(*finished);
+    return start;
+}
+
+// A bound that no conversion kept, and the value that one did keep.
+Error cannot_keep(const std::string& bound, const std::string& why, const std::string& works) {
+    return {ErrorCode::invalid_argument, bound + " cannot be kept: " + why + "; " + works + " works"};
+}
+
+// Looks for a number of bytes that can be kept, to be told: what works is what was tried.
+Error refuse_bytes(const HeightMap& map, ConvertOptions options, std::size_t reached, const Progress& progress,
+                   StageClock& clock) {
+    const std::string bound = "a limit of " + std::to_string(options.max_texture_bytes) + " bytes for both textures";
+    const std::string why = "giving up elements came down to " + std::to_string(reached) + " bytes";
+    while (true) {
+        options.max_texture_bytes = std::max(reached, options.max_texture_bytes + options.max_texture_bytes / 2);
+        const auto kept = start_within(map, options, options.max_texture_bytes, progress, clock);
+        if (!kept) return kept.error();
+        if (kept->candidate.bytes() <= options.max_texture_bytes)
+            return cannot_keep(bound, why, std::to_string(options.max_texture_bytes) + " bytes");
+    }
+}
+
+std::string percent(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", share * 100.0);
+    return text;
+}
+
+// Three digits, upwards: what was reached keeps within it.
+std::string percent_above(double share) {
+    const double scale = std::pow(10.0, 2.0 - std::floor(std::log10(std::max(share * 100.0, 1e-6))));
+    return percent(std::ceil(share * 100.0 * scale) / scale / 100.0);
+}
+
+Error refuse_error(const ConvertOptions& options, const Candidate& best) {
+    std::string why = "the closest paths err by " + percent(best.stats.p999) + " % in the 99.9th percentile";
+    if (best.stats.p999_without_smooth < 0.8 * best.stats.p999)
+        why += ", by " + percent(best.stats.p999_without_smooth) + " % but for soft ground, which is no path";
+    return cannot_keep("a height error of " + percent(options.max_error) + " % of range", why,
+                       percent_above(best.stats.p999) + " %");
+}
+
+// Fits ever closer until 99.9 % of the texels keep the bound, or closer paths are no better.
+Result<Candidate> closer_within(const Source& source, ConvertOptions options, Candidate best, const Progress& progress,
+                                StageClock& clock) {
+    const bool bytes_bound = options.max_texture_bytes > 0;
+    const std::size_t budget = bytes_bound ? options.max_texture_bytes : source.map.image.texels.size();
+    constexpr std::size_t kElementBytes = 36;  // with its share of the grid
+    if (!bytes_bound) options.vectorize.most_elements = static_cast<int>(std::max<std::size_t>(budget / kElementBytes, 64));
+    for (int round = 0; round < 3 && best.stats.p999 > options.max_error; ++round) {
+        options.vectorize.tolerance = best.traced.tolerance / 2.0;
+        auto closer = fit_within(source, options, budget, progress, clock);
+        if (closer) closer = finish_candidate(std::move(*closer), source, options, budget, clock);
+        if (!closer || (bytes_bound && closer->bytes() > budget)) break;  // no room for closer paths
+        if (closer->stats.p999 > 0.98 * best.stats.p999) break;
+        best = std::move(*closer);
+    }
+    if (best.stats.p999 > options.max_error) return refuse_error(options, best);
+    return best;
+}
+
+Result<Candidate> within_bounds(const HeightMap& map, const ConvertOptions& options, const Progress& progress,
+                                StageClock& clock) {
+    const bool bytes_bound = options.max_texture_bytes > 0;
+    const std::size_t budget = bytes_bound ? options.max_texture_bytes : default_budget(map.image.texels.size());
+    auto start = start_within(map, options, budget, progress, clock);
+    if (!start) return start.error();
+    const Candidate& first = start->candidate;
+    if (bytes_bound && first.bytes() > budget) return refuse_bytes(map, options, first.bytes(), progress, clock);
+    if (options.max_error <= 0.0 || first.stats.p999 <= options.max_error) return std::move(start->candidate);
+    return closer_within(start->source, options, std::move(start->candidate), progress, clock);
+}
+
+// Without the paths that could not be joined: the pattern of what is stored.
+Pattern stored_pattern(Pattern pattern, const std::vector<std::uint32_t>& paths) {
+    std::vector<Path> kept;
+    for (const std::uint32_t path : paths) kept.push_back(std::move(pattern.paths[path]));
+    pattern.paths = std::move(kept);
+    return pattern;
+}
+
+void count_kinds(const Pattern& pattern, ConvertStats& stats) {
+    int* const counts[] = {&stats.grooves, &stats.ridges, &stats.steps};  // as PathKind counts them
+    for (const Path& path : pattern.paths) ++*counts[static_cast<std::size_t>(path_kind(pattern, path))];
+}
+
+// The certificate by class. Drawn again only where both classes are there.
+Status share_out(const HeightMap& map, const Candidate& candidate, int threads, ConvertStats& stats) {
+    const bool lines = stats.grooves + stats.ridges > 0;
+    double steps = lines ? 0.0 : stats.explained;
+    if (lines && stats.steps > 0) {
+        // Fewer samples take a third of the time and move the share by less than 0.0005.
+        const auto heights = reconstruct(map, candidate.packed.textures, candidate.packed.detail,
+                                         {.steps_only = true, .samples = 2, .threads = threads});
+        if (!heights) return heights.error();
+        steps = compare(*heights, map, stats.repeat, threads).explained;
+    }
+    stats.shares = {steps, stats.explained - steps, 1.0 - stats.explained};
+    return Done{};
+}
+
 }  // namespace
+
+Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& options, const Progress& progress) {
+    if (!(options.max_error >= 0.0 && options.max_error <= 1.0))
+        return Error{ErrorCode::invalid_argument,
+                     "max_error: " + std::to_string(options.max_error) + " of the range; 0 to 1 would work"};
+    std::vector<std::pair<std::string, double>> seconds;
+    StageClock clock(progress, seconds);
+    auto candidate = within_bounds(map, options, progress, clock);
+    if (!candidate) return candidate.error();
+
+    FoundPattern found;
+    found.stats = candidate->stats;
+    found.stats.noise = candidate->traced.noise;
+    found.stats.tolerance = candidate->traced.tolerance;
+    found.pattern = stored_pattern(std::move(candidate->traced.pattern), candidate->packed.paths);
+    count_kinds(found.pattern, found.stats);
+    if (!clock.begin("measure")) return stopped();
+    if (const Status shared = share_out(map, *candidate, options.threads, found.stats); !shared) return shared.error();
+    clock.end();
+    found.stats.seconds = std::move(seconds);
+    found.textures = std::move(candidate->packed.textures);
+    found.detail = std::move(candidate->packed.detail);
+    return found;
+}
 
 Result<Converted> convert_map(const HeightMap& map, const Model& model, const ConvertOptions& options,
                               const Progress& progress) {
-    Converted converted;
-    std::vector<std::pair<std::string, double>> seconds;
-    StageClock clock(progress, seconds);
-    const std::size_t budget = options.max_texture_bytes > 0 ? options.max_texture_bytes
-                                                             : default_budget(map.image.texels.size());
-    std::optional<HeightMap> detail;
-    auto candidate = trace_best(map, detail, options, budget, progress, clock);
-    const double traced_explained = candidate ? candidate->stats.explained : 0.0;
-    if (candidate) candidate = without_accidents(std::move(*candidate), map, options, budget, clock);
-    if (candidate) candidate = refine_candidate(std::move(*candidate), detail ? *detail : map, map, options, budget, clock);
-    if (!candidate) return candidate.error();
-
+    auto found = find_pattern(map, options, progress);
+    if (!found) return found.error();
+    Converted converted{std::move(*found), {}};
+    StageClock clock(progress, converted.stats.seconds);
     if (!clock.begin("bake")) return stopped();
-    const Pattern& pattern = candidate->traced.pattern;
+    const Pattern& pattern = converted.pattern;
     const Fallback fallback = bake_fallback(map.image, pattern.size, pattern.depth, pattern.wrap, options.fallback);
 
     if (!clock.begin("write")) return stopped();
-    auto bytes = write_glb(model, candidate->packed.textures, candidate->packed.detail, fallback, options.attach);
+    auto bytes = write_glb(model, converted.textures, converted.detail, fallback, options.attach);
     if (!bytes) return bytes.error();
     clock.end();
     converted.glb = std::move(*bytes);
-    converted.stats = candidate->stats;
-    converted.stats.traced_explained = traced_explained;
-    converted.stats.noise = candidate->traced.noise;
-    converted.stats.tolerance = candidate->traced.tolerance;
-    converted.stats.seconds = std::move(seconds);
     converted.stats.file_bytes = converted.glb.size();
     return converted;
 }

@@ -13,6 +13,7 @@
 #include "refine_ends.hpp"
 #include "refine_forward.hpp"
 #include "refine_parameters.hpp"
+#include "refine_sampling.hpp"
 #include "refine_simplify.hpp"
 #include "refine_solve.hpp"
 
@@ -24,7 +25,6 @@ constexpr double kLeastThreshold = 0.004;  // map scale: one step of an 8-bit ma
 constexpr double kLeastDeviation = 1e-5;    // map scale: rounding of a 16-bit map
 constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
-constexpr double kMostDamping = 1e4;
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
 constexpr double kRoughThreshold = 0.05;    // Huber's, before anything is fitted
 constexpr double kTidyMayCost = 1.05;        // of the misfit, before ends are settled
@@ -36,10 +36,13 @@ constexpr double kShortestSplit = 6.0;       // texels
 constexpr double kTorn = 0.1;                // map scale
 // A texel's model is as exact as this share of what it is off by, not more: doubt about a part of it is then cheap.
 constexpr double kPrecision = 0.2;
-constexpr double kFirstPrecision = 4e-3;     // map scale
-constexpr double kLowerPrecision = 0.25;     // of the precision in use: what makes it worth to begin anew
-constexpr double kMisfitPrecision = 0.02;   // of Huber's threshold
-constexpr double kSettled = 1e-3;  // relative gain of a step below which the iteration ends
+// The iteration ends when a step gains less than this share of the cost, or when so many in a row were refused: the rough
+// model is not worth more.
+constexpr double kRoughlySettled = 3e-3;
+constexpr double kSettled = 1e-3;
+constexpr int kMostRefused = 6;
+constexpr int kHoldRounds = 3;
+constexpr int kExactSteps = 3;     // most of them: they start where the rough model has led
 
 // The pattern in texels of the map's width, heights in map scale: white 1, black 0.
 Pattern to_texels(const Pattern& pattern, double texel) {
@@ -73,12 +76,6 @@ void from_texels(Pattern refined, double texel, Pattern& pattern) {
     }
 }
 
-double root_mean_square(const std::vector<Residual>& residuals) {
-    double sum = 0.0;
-    for (const Residual& r : residuals) sum += double(r.value) * r.value;
-    return residuals.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(residuals.size()));
-}
-
 // Standard deviation of the residuals on walls, where misplacement shows, or off them; outliers do not count.
 double deviation_of(const std::vector<Residual>& residuals, bool on_walls = true) {
     std::vector<float> magnitudes;
@@ -94,147 +91,181 @@ double deviation_of(const std::vector<Residual>& residuals, bool on_walls = true
 double threshold_of(double deviation) { return std::max(kLeastThreshold, kThresholdInDeviations * deviation); }
 
 
+// The rough model asks half of the texels where the map bends, and combines the features' means over a whole texel: off
+// only within a texel of where features meet, but many times faster.
+enum class Model { rough, exact };
+
 struct State {
     Pattern pattern;
     Parameters parameters;
     std::vector<ElementUnknowns> elements;
     Prediction prediction;
+    std::vector<std::uint8_t> resolves;  // by path: whether anything is left of it once it is resolved
 };
+
+// Over the whole map: patterns whose features cover different texels compare fairly.
+double misfit(const Prediction& prediction, double threshold) {
+    return robust_cost(prediction.residuals, threshold) + robust_cost(prediction.far, threshold);
+}
 
 // What a step has to lower: the misfit, and the springs at the strength the misfit leaves them.
 double cost_of(const State& state, double deviation) {
     double springs = 0.0;
     for (std::size_t i = 0; i < state.parameters.moved().size(); ++i)
         springs += state.parameters.stiffness()[i] * state.parameters.moved()[i] * state.parameters.moved()[i];
-    return robust_cost(state.prediction.residuals, threshold_of(deviation)) + 0.5 * deviation * deviation * springs;
+    return misfit(state.prediction, threshold_of(deviation)) + 0.5 * deviation * deviation * springs;
 }
 
 class Refinement {
   public:
     Refinement(const Image& map, Vec2 side, const RefineOptions& options)
-        : map_(map), side_(side), options_(options) {}
+        : map_(map), side_(side), options_(options), rough_(sample_map(map, true)), exact_(sample_map(map, false)) {}
 
-    Status predict(State& state, double threshold, double precision) const {
-        const Result<ResolvedPattern> resolved = resolve_pattern(state.pattern, resolve_options());
-        if (!resolved) return resolved.error();
-        state.elements = state.parameters.of_elements(state.pattern, *resolved);
-        ForwardOptions forward;
+    // The model's map and its equations, at a state's pattern.
+    void predict(State& state, const ResolvedPattern& resolved, Model model, double threshold, double precision) const {
+        state.elements = state.parameters.of_elements(state.pattern, resolved);
+        ForwardOptions forward = forward_options(model, precision);
         forward.robust = threshold;
-        forward.precision = precision;
-        forward.threads = options_.threads;
-        state.prediction = Forward(*resolved, map_, side_).predict(state.elements, forward);
-        return Done{};
+        state.prediction = Forward(resolved, map_, side_, sampling(model), options_.threads).predict(state.elements, forward);
+        state.resolves = resolving_paths(state.pattern, resolved);
+    }
+
+    // The model's map alone.
+    Result<Prediction> look(const Pattern& pattern, Model model, double precision = 0.0) const {
+        const Result<ResolvedPattern> resolved = resolve_pattern(pattern, resolve_options());
+        if (!resolved) return resolved.error();
+        ForwardOptions forward = forward_options(model, precision);
+        forward.equations = false;
+        return Forward(*resolved, map_, side_, sampling(model), options_.threads).predict({}, forward);
     }
 
     // Damped Gauss-Newton steps from `start` until nothing is gained.
-    Result<State> run(const Pattern& start, RefineReport& report) const {
+    Result<State> run(const Pattern& start, Model model, double precision, RefineReport& report) const {
         Pattern tied = start;
         Parameters parameters(tied, options_);
-        State best{std::move(tied), std::move(parameters), {}, {}};
-        double precision = kFirstPrecision;
-        if (Status status = predict(best, 1e30, precision); !status) return status.error();
-        if (report.iterations == 0) report.rms_before = root_mean_square(best.prediction.residuals);
+        State best{std::move(tied), std::move(parameters), {}, {}, {}};
+        const Result<ResolvedPattern> begun = resolve_pattern(best.pattern, resolve_options());
+        if (!begun) return begun.error();
+        predict(best, *begun, model, 1e30, precision);
         report.unknowns = best.parameters.count();
+        const int most = model == Model::exact ? std::min(kExactSteps, options_.iterations) : options_.iterations;
         double damping = kFirstDamping;
-        bool refused = false;  // the last step
-        for (int i = 0; i < options_.iterations && damping < kMostDamping && report.unknowns > 0; ++i) {
-            double deviation = deviation_of(best.prediction.residuals);
-            if (kPrecision * deviation < kLowerPrecision * precision) {
-                precision = kPrecision * deviation;
-                if (Status status = predict(best, threshold_of(deviation), precision); !status) return status.error();
-                deviation = deviation_of(best.prediction.residuals);
-            }
+        const double settled = model == Model::exact ? kSettled : kRoughlySettled;
+        int refused = 0;  // steps in a row
+        for (int i = 0; i < most && refused < kMostRefused && report.unknowns > 0; ++i) {
+            const double deviation = deviation_of(best.prediction.residuals);
             NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
             equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
-            State next{best.pattern, best.parameters, {}, {}};
-            next.parameters.apply(equations.step(damping), options_.max_shift_texels, next.pattern);
             ++report.iterations;
-            const bool resolves = predict(next, threshold_of(deviation), precision).ok();
+            State next{best.pattern, best.parameters, {}, {}, {}};
+            const Result<ResolvedPattern> resolved = take_step(best, equations, damping, next);
+            if (resolved) predict(next, *resolved, model, threshold_of(deviation), precision);
             const double before = cost_of(best, deviation);
-            const double after = resolves ? cost_of(next, deviation) : 1e300;
+            const double after = resolved ? cost_of(next, deviation) : 1e300;
             if (after >= before) {
                 damping = std::max(10.0 * damping, 1e-2);
-                refused = true;
+                ++refused;
                 continue;
             }
             best = std::move(next);
             // What was too little damping a step ago is so still: a refused step costs as much as one that is taken.
-            if (!refused) damping = std::max(0.1 * damping, 1e-6);
-            refused = false;
-            if (before - after < kSettled * before) break;
+            if (refused == 0) damping = std::max(0.1 * damping, 1e-6);
+            refused = 0;
+            if (before - after < settled * before) break;
         }
         return best;
     }
 
     // The pattern with ends where the map shows them; each stays that fits no better around where it moved.
     Pattern with_settled_ends(const Pattern& pattern) const {
-        const Result<std::vector<Residual>> before = residuals(pattern);
+        const Result<Prediction> before = look(pattern, Model::rough);
         if (!before) return pattern;
         std::vector<std::uint8_t> held;
         for (int round = 0; round < kSettleRounds; ++round) {
             Pattern settled = pattern;
             const std::vector<MovedEnd> moved = settle_ends(settled, map_, side_, held);
-            const Result<std::vector<Residual>> after = residuals(settled);
-            if (moved.empty() || !after) return pattern;
+            if (moved.empty()) return pattern;
+            const Result<Prediction> after = look(settled, Model::rough);
+            if (!after) return pattern;
+            const std::vector<float> gains = gains_of(*before, *after);
             bool any_held = false;
             for (const MovedEnd& end : moved) {
-                if (window_cost(*after, end.window) < window_cost(*before, end.window)) continue;
+                if (sum_within(gains, end.window) > 0.0) continue;
                 if (held.size() <= end.end) held.resize(end.end + 1, 0);
                 held[end.end] = 1;
                 any_held = true;
             }
-            const bool gains = robust_cost(*after, kRoughThreshold) < robust_cost(*before, kRoughThreshold);
-            if (gains && (!any_held || round + 1 == kSettleRounds)) return settled;
+            const bool better = misfit(*after, kRoughThreshold) < misfit(*before, kRoughThreshold);
+            if (better && (!any_held || round + 1 == kSettleRounds)) return settled;
         }
         return pattern;
-    }
-
-    double window_cost(const std::vector<Residual>& all, const Box& window) const {
-        const auto index = [](double x, int count) { return std::clamp(static_cast<int>(std::floor(x)), 0, count - 1); };
-        std::vector<Residual> part;
-        for (int y = index(window.low.y / side_.y, map_.height); y <= index(window.high.y / side_.y, map_.height); ++y)
-            for (int x = index(window.low.x / side_.x, map_.width); x <= index(window.high.x / side_.x, map_.width); ++x)
-                part.push_back(all[static_cast<std::size_t>(y) * map_.width + x]);
-        return robust_cost(part, kRoughThreshold);
     }
 
     // The pattern with tails that go on as arcs, unless that fits worse.
     Pattern with_tidy_tails(const Pattern& pattern) const {
         Pattern tidy = pattern;
-        if (!tidy_tails(tidy)) return pattern;
-        const Result<double> before = misfit(pattern, kRoughThreshold), after = misfit(tidy, kRoughThreshold);
-        return before && after && *after < kTidyMayCost * *before ? tidy : pattern;
+        return tidy_tails(tidy) && fits(tidy, kTidyMayCost, pattern) ? tidy : pattern;
     }
 
     // The pattern with curves for the polylines that go round, unless that fits worse.
     Pattern with_curves(const Pattern& pattern) const {
         Pattern curved = pattern;
-        if (!curve_polylines(curved)) return pattern;
-        const Result<double> before = misfit(pattern, kRoughThreshold), after = misfit(curved, kRoughThreshold);
-        return before && after && *after < *before ? curved : pattern;
-    }
-
-    // Model minus map of every texel.
-    Result<std::vector<Residual>> residuals(const Pattern& pattern, double threshold = kRoughThreshold) const {
-        const Result<ResolvedPattern> resolved = resolve_pattern(pattern, resolve_options());
-        if (!resolved) return resolved.error();
-        ForwardOptions forward;
-        forward.threads = options_.threads;
-        forward.precision = kMisfitPrecision * threshold;
-        const Image model = Forward(*resolved, map_, side_).image(forward);
-        std::vector<Residual> out(model.texels.size());
-        for (std::size_t k = 0; k < out.size(); ++k) out[k].value = model.texels[k] - map_.texels[k];
-        return out;
-    }
-
-    // Robust misfit over the whole map: patterns whose features cover different texels compare fairly.
-    Result<double> misfit(const Pattern& pattern, double threshold) const {
-        const Result<std::vector<Residual>> all = residuals(pattern, threshold);
-        if (!all) return all.error();
-        return robust_cost(*all, threshold);
+        return curve_polylines(curved) && fits(curved, 1.0, pattern) ? curved : pattern;
     }
 
   private:
+    static std::vector<std::uint8_t> resolving_paths(const Pattern& pattern, const ResolvedPattern& resolved) {
+        std::vector<std::uint8_t> resolves(pattern.paths.size(), 0);
+        for (const ResolvedElement& element : resolved.elements) resolves[element.path] = 1;
+        return resolves;
+    }
+
+    // Moves `next` on from `from`. Paths that would then resolve no more, since a step path of theirs crosses another, stay
+    // where they are from now on: shorter steps of everything else would not help them.
+    Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, double damping, State& next) const {
+        for (int round = 0;; ++round) {
+            next.pattern = from.pattern;
+            next.parameters = from.parameters;
+            next.parameters.apply(equations.step(damping, from.parameters.held()), options_.max_shift_texels, next.pattern);
+            Result<ResolvedPattern> resolved = resolve_pattern(next.pattern, resolve_options());
+            if (!resolved || round == kHoldRounds) return resolved;
+            const std::vector<std::uint8_t> resolves = resolving_paths(next.pattern, *resolved);
+            bool any_lost = false;
+            for (std::size_t path = 0; path < resolves.size(); ++path) {
+                if (resolves[path] || !from.resolves[path]) continue;
+                from.parameters.hold(static_cast<int>(path), from.pattern.paths[path].elements.size());
+                any_lost = true;
+            }
+            if (!any_lost) return resolved;
+        }
+    }
+
+    // Whether a pattern's misfit is below a share of another's.
+    bool fits(const Pattern& pattern, double share, const Pattern& other) const {
+        const Result<Prediction> before = look(other, Model::rough), after = look(pattern, Model::rough);
+        return before && after && misfit(*after, kRoughThreshold) < share * misfit(*before, kRoughThreshold);
+    }
+
+    // How much less the second prediction is off at each texel.
+    std::vector<float> gains_of(const Prediction& before, const Prediction& after) const {
+        std::vector<float> gains(map_.texels.size(), 0.0f);
+        const auto add = [&](const std::vector<Residual>& residuals, double sign) {
+            for (const Residual& r : residuals) gains[r.texel] += static_cast<float>(sign * robust_cost(r, kRoughThreshold));
+        };
+        add(before.residuals, 1.0), add(before.far, 1.0);
+        add(after.residuals, -1.0), add(after.far, -1.0);
+        return gains;
+    }
+
+    double sum_within(const std::vector<float>& values, const Box& window) const {
+        const auto index = [](double x, int count) { return std::clamp(static_cast<int>(std::floor(x)), 0, count - 1); };
+        double sum = 0.0;
+        for (int y = index(window.low.y / side_.y, map_.height); y <= index(window.high.y / side_.y, map_.height); ++y)
+            for (int x = index(window.low.x / side_.x, map_.width); x <= index(window.high.x / side_.x, map_.width); ++x)
+                sum += values[static_cast<std::size_t>(y) * map_.width + x];
+        return sum;
+    }
+
     ResolveOptions resolve_options() const {
         ResolveOptions resolve;
         resolve.snap = options_.snap;
@@ -242,9 +273,20 @@ class Refinement {
         return resolve;
     }
 
+    ForwardOptions forward_options(Model model, double precision) const {
+        ForwardOptions forward;
+        forward.divisions = model == Model::rough ? kWhole : kFineDivisions;
+        forward.precision = precision;
+        forward.threads = options_.threads;
+        return forward;
+    }
+
+    const Sampling& sampling(Model model) const { return model == Model::rough ? rough_ : exact_; }
+
     const Image& map_;
     const Vec2 side_;
     const RefineOptions& options_;
+    const Sampling rough_, exact_;
 };
 
 // What would be indexed or divided by blindly. The rest is for `resolve_pattern` to leave out.
@@ -288,9 +330,9 @@ std::vector<ElementIndex> strained_quadratics(const State& state) {
         Sums& sum = sums[{element.path, element.element}];
         // One torn texel does not make a strained arc.
         const double value = std::min(double(std::abs(r.value)), kTorn);
-        sum.squares += value * value;
-        sum.slopes += double(r.slope) * r.slope;
-        sum.count += 1.0;
+        sum.squares += r.weight * value * value;
+        sum.slopes += r.weight * double(r.slope) * r.slope;
+        sum.count += r.weight;
     }
     const double noise = deviation_of(state.prediction.residuals, false);
     std::vector<ElementIndex> strained;
@@ -308,27 +350,24 @@ std::vector<ElementIndex> strained_quadratics(const State& state) {
 bool keep_better(const Refinement& refinement, const Pattern& candidate, double share, State& best,
                  RefineReport& report) {
     RefineReport trial = report;
-    Result<State> state = refinement.run(candidate, trial);
+    Result<State> state = refinement.run(candidate, Model::rough, 0.0, trial);
     if (!state) return false;
     const double threshold = threshold_of(deviation_of(best.prediction.residuals));
-    const Result<double> before = refinement.misfit(best.pattern, threshold);
-    const Result<double> after = refinement.misfit(state->pattern, threshold);
-    if (!before || !after || *after > share * *before) return false;
-    report.iterations = trial.iterations;
-    report.unknowns = trial.unknowns;
+    if (misfit(state->prediction, threshold) > share * misfit(best.prediction, threshold)) return false;
+    report = trial;
     best = std::move(*state);
     return true;
 }
 
 // First with the profiles as they came, symmetric ones made so; then, where it costs little, with fewer points: a
 // section measured through the blur of the texels has rounded corners, which the first stage has straightened.
-Result<State> refine_in_stages(const Refinement& refinement, const Pattern& start, const RefineOptions& options,
-                               RefineReport& report) {
+Result<State> refine_roughly(const Refinement& refinement, const Pattern& start, const RefineOptions& options,
+                             RefineReport& report) {
     Pattern first = start;
     if (options.profiles) make_symmetric(first);
     if (options.elements) first = refinement.with_tidy_tails(refinement.with_curves(first));
     if (options.ends) first = refinement.with_settled_ends(first);
-    Result<State> best = refinement.run(first, report);
+    Result<State> best = refinement.run(first, Model::rough, 0.0, report);
     if (!best) return best;
     Pattern simpler = best->pattern;
     if (options.profiles && simplify_profiles(simpler)) keep_better(refinement, simpler, kSimplerMayCost, *best, report);
@@ -353,14 +392,18 @@ Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const Re
     const Pattern start = to_texels(pattern, texel);
     const Refinement refinement(map, side, options);
     RefineReport report;
-    Result<State> best = refine_in_stages(refinement, start, options, report);
+    const Result<State> rough = refine_roughly(refinement, start, options, report);
+    if (!rough) return rough.error();
+    const double precision = kPrecision * deviation_of(rough->prediction.residuals);
+    const Result<State> best = refinement.run(rough->pattern, Model::exact, precision, report);
     if (!best) return best.error();
+    const Result<Prediction> before = refinement.look(start, Model::exact, precision);
+    if (!before) return before.error();
+    report.rms_before = root_mean_square(before->residuals);
     report.rms_after = root_mean_square(best->prediction.residuals);
     report.largest_shift_texels = best->parameters.largest_shift();
     const double threshold = threshold_of(deviation_of(best->prediction.residuals));
-    const Result<double> before = refinement.misfit(start, threshold);
-    const Result<double> after = refinement.misfit(best->pattern, threshold);
-    if (before && after && *after < *before) from_texels(best->pattern, texel, pattern);
+    if (misfit(best->prediction, threshold) < misfit(*before, threshold)) from_texels(best->pattern, texel, pattern);
     return report;
 }
 

@@ -57,7 +57,8 @@ double nearest_parameter(const ElementFrame& f, Vec2 p, double guess) {
         double curvature = dot(first, first) + 2.0 * dot(d, second);
         curvature = std::max(curvature, 0.1 * dot(first, first));
         const double next = std::clamp(s - slope / std::max(curvature, 1e-300), 0.0, 1.0);
-        const bool settled = std::abs(next - s) < 1e-8;
+        // The next step would be the square of this one.
+        const bool settled = std::abs(next - s) < 1e-5;
         s = next;
         if (settled) break;
     }
@@ -99,12 +100,12 @@ Foot foot_on_quadratic(const ElementFrame& f, Vec2 p, double guess) {
     foot.distance = norm(d);
     foot.parameter = s;
     const Vec2 first = lerp(f.p1 - f.p0, f.p2 - f.p1, s) * 2.0;
-    foot.tangent = s <= 0.0 ? f.tangent0 : s >= 1.0 ? f.tangent1 : direction(first);
+    const double speed = std::max(1e-9, norm(first));
+    foot.tangent = s <= 0.0 ? f.tangent0 : s >= 1.0 ? f.tangent1 : first * (1.0 / speed);
     const double along = dot(d, foot.tangent);
     if (s <= 0.0 && along < 0.0) return continue_straight(f, p, true, foot), foot;
     if (s >= 1.0 && along > 0.0) return continue_straight(f, p, false, foot), foot;
     foot.offset = dot(d, normal_of(foot.tangent));
-    const double speed = std::max(1e-9, norm(first));
     const double curvature = cross(first, 2.0 * (f.p0 - 2.0 * f.p1 + f.p2)) / (speed * speed * speed);
     foot.bend = -curvature / std::max(0.2, 1.0 - curvature * foot.offset);
     foot.weight[0] = (1.0 - s) * (1.0 - s);
@@ -222,15 +223,15 @@ bool is_tame(const ElementFrame& frame, const Foot& foot, double radius) {
     return frame.bow * foot.offset + std::abs(frame.bow) * radius < kTame;
 }
 
-Placement place(const ElementFrame& frame, Vec2 p, const Foot& foot) {
+Placement place(const ElementFrame& frame, Vec2 p, const Foot& foot, bool plain) {
     Placement placement;
     placement.offset = foot.offset;
     placement.gradient = normal_of(foot.tangent);
     placement.bend = foot.bend;
     for (int k = 0; k < 3; ++k) placement.weight[k] = foot.weight[k];
     placement.along = std::clamp(foot.parameter, 0.0, 1.0);
-    placement.acts = allow(frame.start, true, p, foot.offset, placement) &&
-                     allow(frame.end, false, p, foot.offset, placement);
+    placement.acts = plain || (allow(frame.start, true, p, foot.offset, placement) &&
+                               allow(frame.end, false, p, foot.offset, placement));
     return placement;
 }
 

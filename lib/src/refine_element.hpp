@@ -2,6 +2,8 @@
 // The rules are those of `resolve.hpp`. Lengths in texels.
 #pragma once
 
+#include <algorithm>
+
 #include <burin/geometry.hpp>
 #include <burin/resolve.hpp>
 
@@ -54,7 +56,13 @@ Foot foot_of(const ElementFrame& frame, Vec2 p, double guess = -1.0);
 // not where the foot may leap: near a quadratic's centre of curvature.
 bool is_tame(const ElementFrame& frame, const Foot& foot, double radius);
 
-Placement place(const ElementFrame& frame, Vec2 p, const Foot& foot);
+// A guess for the feet of points within `radius` of the foot's point, where they lie near it.
+inline double guess_near(const ElementFrame& frame, const Foot& foot, double radius) {
+    return is_tame(frame, foot, radius) ? std::clamp(foot.parameter, 0.0, 1.0) : -1.0;
+}
+
+// `plain`: the point is known to be one where the foot alone tells, see Reach.
+Placement place(const ElementFrame& frame, Vec2 p, const Foot& foot, bool plain);
 
 // Whether any point within `margin` of p may be acted on by a profile that reaches left..right (scaled), and whether
 // all of them are, plainly by the foot alone. Where an end is not shaped, the offset is the foot's wherever it acts.

@@ -1,11 +1,11 @@
 #include "refine_forward.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
-#include <thread>
 #include <unordered_map>
 
+#include "refine_parallel.hpp"
 #include "refine_scene.hpp"
 #include "refine_texel.hpp"
 
@@ -23,12 +23,11 @@ class Summation {
         sum_.gradients.resize(unknowns.size());
     }
 
-    // residual = model - map.
-    Residual add(TexelModel& texel, double residual, double robust) {
+    // Fills in which element matters most to the residual.
+    void add(TexelModel& texel, double residual, double robust, Residual& entry) {
         const double magnitude = std::abs(residual);
-        const double weight = magnitude <= robust ? 1.0 : robust / magnitude;
+        const double weight = entry.weight * (magnitude <= robust ? 1.0 : robust / magnitude);
         used_.clear();
-        Residual entry{static_cast<float>(residual), 0.0f, -1};
         double steepest = kFlat;
         for (std::size_t i = 0; i < texel.count(); ++i) {
             Candidate& c = texel.candidate(i);
@@ -36,26 +35,61 @@ class Summation {
             const std::uint32_t element = layout_.instances[c.instance].element;
             reduce(element, c.local.data());
             const double* p = c.local.data() + kPoints;
-            const double slope = std::hypot(p[0] + p[2] + p[4], p[1] + p[3] + p[5]);
+            const double x = p[0] + p[2] + p[4], y = p[1] + p[3] + p[5], slope = std::sqrt(x * x + y * y);
             if (slope <= steepest) continue;
             steepest = slope;
             entry.slope = static_cast<float>(slope);
             entry.element = static_cast<std::int32_t>(element);
         }
-        for (std::size_t i = 0; i < used_.size(); ++i) {
-            const Row& row = rows_[i];
-            std::vector<double>& gradient = sum_.gradients[used_[i]];
-            if (gradient.empty()) gradient.assign(row.size(), 0.0);
-            for (std::size_t k = 0; k < row.size(); ++k) gradient[k] += weight * residual * row[k];
-            for (std::size_t j = i; j < used_.size(); ++j) add_pair(i, j, weight);
-        }
-        return entry;
+        for (std::size_t i = 0; i < used_.size(); ++i) add_row(i, weight, weight * residual);
     }
 
-    Equations take() { return std::move(sum_); }
+    // Of a texel that no feature is near: all it shows is the level of its region.
+    void add_ground(double level, double residual, double robust, double texels) {
+        const double magnitude = std::abs(residual);
+        const double weight = texels * (magnitude <= robust ? 1.0 : robust / magnitude);
+        auto sum = std::find_if(grounds_.begin(), grounds_.end(), [&](const Ground& g) { return g.level == level; });
+        if (sum == grounds_.end()) sum = grounds_.insert(sum, {level, 0.0, 0.0});
+        sum->weight += weight;
+        sum->residual += weight * residual;
+    }
+
+    Equations take() {
+        for (const Ground& ground : grounds_) add_level(ground);
+        return std::move(sum_);
+    }
 
   private:
     using Row = std::vector<double>;
+
+    struct Ground {
+        double level = 0.0, weight = 0.0, residual = 0.0;  // sums over texels
+    };
+
+    // The level moves with any feature that stands on it.
+    void add_level(const Ground& ground) {
+        for (std::uint32_t element = 0; element < layout_.features.size(); ++element) {
+            const Feature& feature = layout_.features[element];
+            const bool left = std::abs(feature.level_left - ground.level) <= kLevelTolerance;
+            if (!left && std::abs(feature.level_right - ground.level) > kLevelTolerance) continue;
+            std::array<double, kMaxLocal> local{};
+            local[kLevel] = 1.0;
+            if (!left) local[local_count(feature) - 1] = feature.frame.height0;
+            used_.clear();
+            reduce(element, local.data());
+            add_row(0, ground.weight, ground.residual);
+            return;
+        }
+    }
+
+    // Of the used element at `place`; with its pairs to those after it.
+    void add_row(std::size_t place, double weight, double weighted_residual) {
+        const Row& row = rows_[place];
+        std::vector<double>& gradient = sum_.gradients[used_[place]];
+        if (gradient.empty()) gradient.assign(row.size(), 0.0);
+        for (std::size_t k = 0; k < row.size(); ++k) gradient[k] += weighted_residual * row[k];
+        for (std::size_t other = place; other < used_.size(); ++other) add_pair(place, other, weight);
+    }
 
     void reduce(std::uint32_t element, const double* local) {
         const ElementUnknowns& u = unknowns_[element];
@@ -106,94 +140,98 @@ class Summation {
     std::size_t last_offset_ = 0;
     std::vector<std::uint32_t> used_;
     std::vector<Row> rows_;
+    std::vector<Ground> grounds_;
 };
-
-// Runs work(part) for every part; which thread takes which does not matter.
-template <typename Work>
-void in_parallel(int parts, int threads, Work work) {
-    if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    threads = std::min(threads, parts);
-    std::atomic<int> next{0};
-    const auto run = [&] {
-        for (int part = next++; part < parts; part = next++) work(part);
-    };
-    std::vector<std::thread> others;
-    for (int i = 1; i < threads; ++i) others.emplace_back(run);
-    run();
-    for (std::thread& thread : others) thread.join();
-}
 
 }  // namespace
 
 struct Forward::Scene {
     Layout layout;
     const Image& map;
+    const Sampling& sampling;
 
     int parts() const { return (layout.tile_rows + kRowsPerPart - 1) / kRowsPerPart; }
 
-    // Calls visit(x, y) for the texels of the part whose tile lists anything, tile by tile.
+    // Calls visit(x, y) for the texels of the part, tile by tile.
     template <typename Visit>
     void for_texels(int part, Visit visit) const {
         const int last_row = std::min((part + 1) * kRowsPerPart, layout.tile_rows);
-        for (int row = part * kRowsPerPart; row < last_row; ++row) {
-            for (int column = 0; column < layout.tile_columns; ++column) {
-                const std::size_t tile = static_cast<std::size_t>(row) * layout.tile_columns + column;
-                if (layout.first[tile] == layout.first[tile + 1]) continue;
+        for (int row = part * kRowsPerPart; row < last_row; ++row)
+            for (int column = 0; column < layout.tile_columns; ++column)
                 for (int y = row * kTile; y < std::min((row + 1) * kTile, layout.height); ++y)
                     for (int x = column * kTile; x < std::min((column + 1) * kTile, layout.width); ++x) visit(x, y);
-            }
-        }
+    }
+
+    // Residuals of one part of the map, and its equations.
+    void predict(int part, const std::vector<ElementUnknowns>& unknowns, const ForwardOptions& options,
+                 Prediction& out) const {
+        TexelModel texel(layout, options, options.equations);
+        Summation summation(layout, unknowns);
+        for_texels(part, [&](int x, int y) {
+            const int weight = sampling.at(x, y);
+            if (weight == 0) return;
+            const std::uint32_t index = static_cast<std::uint32_t>(y) * layout.width + x;
+            const bool near = texel.gather(x, y);
+            const double residual = (near ? texel.mean() : layout.ground_at(index)) - map.texels[index];
+            Residual entry{static_cast<float>(residual), static_cast<float>(weight), index};
+            if (near && options.equations) summation.add(texel, residual, options.robust, entry);
+            if (!near && options.equations) summation.add_ground(layout.ground_at(index), residual, options.robust, weight);
+            (near ? out.residuals : out.far).push_back(entry);
+        });
+        out.parts.push_back(summation.take());
     }
 };
 
-Forward::Forward(const ResolvedPattern& pattern, const Image& map, Vec2 side)
-    : scene_(new Scene{lay_out(pattern, map.width, map.height, side), map}) {}
+Forward::Forward(const ResolvedPattern& pattern, const Image& map, Vec2 side, const Sampling& sampling,
+                 int threads)
+    : scene_(new Scene{lay_out(pattern, map.width, map.height, side, threads), map, sampling}) {}
 
 Forward::~Forward() = default;
 
 Prediction Forward::predict(const std::vector<ElementUnknowns>& unknowns, const ForwardOptions& options) const {
-    const Scene& scene = *scene_;
-    const int parts = scene.parts();
-    Prediction prediction;
-    prediction.parts.resize(parts);
-    std::vector<std::vector<Residual>> residuals(parts);
-    in_parallel(parts, options.threads, [&](int part) {
-        TexelModel texel(scene.layout, options, true);
-        Summation summation(scene.layout, unknowns);
-        scene.for_texels(part, [&](int x, int y) {
-            if (!texel.gather(x, y)) return;
-            const double residual = texel.mean() - scene.map.at(x, y);
-            residuals[part].push_back(summation.add(texel, residual, options.robust));
-        });
-        prediction.parts[part] = summation.take();
-    });
-    for (const std::vector<Residual>& part : residuals)
-        prediction.residuals.insert(prediction.residuals.end(), part.begin(), part.end());
-    return prediction;
+    std::vector<Prediction> parts(scene_->parts());
+    in_parallel(scene_->parts(), options.threads,
+                [&](int part) { scene_->predict(part, unknowns, options, parts[part]); });
+    Prediction all;
+    for (Prediction& part : parts) {
+        all.parts.push_back(std::move(part.parts.front()));
+        all.residuals.insert(all.residuals.end(), part.residuals.begin(), part.residuals.end());
+        all.far.insert(all.far.end(), part.far.begin(), part.far.end());
+    }
+    return all;
 }
 
 Image Forward::image(const ForwardOptions& options) const {
-    const Scene& scene = *scene_;
-    const Layout& layout = scene.layout;
-    Image out(layout.width, layout.height, static_cast<float>(layout.outer_level));
-    for (std::size_t k = 0; k < layout.ground.size(); ++k)
-        if (layout.ground[k] != kNearStep) out.texels[k] = layout.ground[k];
-    in_parallel(scene.parts(), options.threads, [&](int part) {
+    const Layout& layout = scene_->layout;
+    Image out(layout.width, layout.height);
+    in_parallel(scene_->parts(), options.threads, [&](int part) {
         TexelModel texel(layout, options, false);
-        scene.for_texels(part, [&](int x, int y) {
-            if (texel.gather(x, y)) out.at(x, y) = static_cast<float>(texel.mean());
+        scene_->for_texels(part, [&](int x, int y) {
+            const double ground = layout.ground_at(static_cast<std::size_t>(y) * layout.width + x);
+            out.at(x, y) = static_cast<float>(texel.gather(x, y) ? texel.mean() : ground);
         });
     });
     return out;
 }
 
+double robust_cost(const Residual& residual, double threshold) {
+    const double r = std::abs(residual.value);
+    return residual.weight * (r <= threshold ? 0.5 * r * r : threshold * (r - 0.5 * threshold));
+}
+
 double robust_cost(const std::vector<Residual>& residuals, double threshold) {
     double sum = 0.0;
-    for (const Residual& residual : residuals) {
-        const double r = std::abs(residual.value);
-        sum += r <= threshold ? 0.5 * r * r : threshold * (r - 0.5 * threshold);
-    }
+    for (const Residual& residual : residuals) sum += robust_cost(residual, threshold);
     return sum;
+}
+
+double root_mean_square(const std::vector<Residual>& residuals) {
+    double sum = 0.0, weights = 0.0;
+    for (const Residual& r : residuals) {
+        sum += double(r.weight) * r.value * r.value;
+        weights += r.weight;
+    }
+    return weights > 0.0 ? std::sqrt(sum / weights) : 0.0;
 }
 
 }  // namespace burin::refinement

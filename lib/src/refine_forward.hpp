@@ -14,6 +14,7 @@
 
 #include "refine_element.hpp"
 #include "refine_profile.hpp"
+#include "refine_sampling.hpp"
 
 namespace burin::refinement {
 
@@ -50,7 +51,9 @@ struct Equations {
 };
 
 struct Residual {
-    float value = 0.0f;
+    float value = 0.0f;              // model minus map
+    float weight = 1.0f;             // texels that it stands for
+    std::uint32_t texel = 0;         // its index in the map
     float slope = 0.0f;              // change of the model's value per texel that the element below moves sideways
     std::int32_t element = -1;       // the resolved element whose place matters most; -1: flat
     bool steep() const { return element >= 0; }
@@ -58,11 +61,17 @@ struct Residual {
 
 struct Prediction {
     std::vector<Equations> parts;     // in a fixed order that does not depend on threads
-    std::vector<Residual> residuals;  // model minus map, of the texels near features, in a fixed order
+    std::vector<Residual> residuals;  // of the texels near features, in a fixed order
+    std::vector<Residual> far;        // of all others
 };
 
+// Cells that one texel may be divided into, per side.
+constexpr int kFineDivisions = 8;
+constexpr int kWhole = 1;  // never divided: where features meet, the means of each over the texel are combined
+
 struct ForwardOptions {
-    int divisions = 8;         // cells per side of a divided texel
+    int divisions = kFineDivisions;
+    bool equations = true;     // else residuals alone
     double robust = 1e30;      // Huber's threshold
     // Parts of a texel where the surface cannot vary by more than this, times their share, are not divided further.
     double precision = 0.0;
@@ -71,8 +80,8 @@ struct ForwardOptions {
 
 class Forward {
   public:
-    // map and pattern outlive it. `side`: a texel's sides, side.x is 1.
-    Forward(const ResolvedPattern& pattern, const Image& map, Vec2 side);
+    // map and pattern outlive it. `side`: a texel's sides, side.x is 1. `sampling` outlives it, too.
+    Forward(const ResolvedPattern& pattern, const Image& map, Vec2 side, const Sampling& sampling, int threads = 0);
     ~Forward();
     Forward(const Forward&) = delete;
     Forward& operator=(const Forward&) = delete;
@@ -80,7 +89,7 @@ class Forward {
     // `unknowns`: one per resolved element.
     Prediction predict(const std::vector<ElementUnknowns>& unknowns, const ForwardOptions& options) const;
 
-    // The model's map, for tests: texels far from features have their region's level.
+    // The model's map, for tests: every texel; those far from features have their region's level.
     Image image(const ForwardOptions& options) const;
 
   private:
@@ -88,6 +97,9 @@ class Forward {
     std::unique_ptr<Scene> scene_;
 };
 
+// Huber's.
+double robust_cost(const Residual& residual, double threshold);
 double robust_cost(const std::vector<Residual>& residuals, double threshold);
+double root_mean_square(const std::vector<Residual>& residuals);
 
 }  // namespace burin::refinement

@@ -256,6 +256,7 @@ Parameters::Parameters(Pattern& pattern, const RefineOptions& options)
     for (std::size_t p = 0; p < pattern.paths.size(); ++p) scales_[p].resize(pattern.paths[p].elements.size());
     if (options.scales) number_scales(pattern);
     moved_.assign(count_, 0.0);
+    held_.assign(count_, 0);
     stiffness_.resize(count_, kLoose);
     nodes_.write(pattern);
 }
@@ -383,6 +384,12 @@ void Parameters::number_scales(const Pattern& pattern) {
             if (heights) number(own.height, uniform_heights, former.height[1], previous.height1 == e.height0);
         }
     }
+}
+
+void Parameters::hold(int path, std::size_t elements) {
+    for (std::size_t element = 0; element < elements; ++element)
+        for (int point = 0; point < 3; ++point)
+            for (const PointTerm& term : nodes_.terms(path, static_cast<int>(element), point)) held_[term.unknown] = 1;
 }
 
 void Parameters::apply(const std::vector<double>& step, double most_shift, Pattern& pattern) {

@@ -50,6 +50,10 @@ class Parameters {
     const std::vector<double>& stiffness() const { return stiffness_; }
     double largest_shift() const { return nodes_.largest_shift(); }
 
+    // The points of a path, and what they hang on, stay from now on. `held`: 1 for the unknowns that do.
+    void hold(int path, std::size_t elements);
+    const std::vector<std::uint8_t>& held() const { return held_; }
+
     // Moves the pattern by `step`, keeping its structure.
     void apply(const std::vector<double>& step, double most_shift, Pattern& pattern);
 
@@ -77,6 +81,7 @@ class Parameters {
     int outer_level_ = 0;
     int count_ = 0;
     std::vector<double> moved_, stiffness_;
+    std::vector<std::uint8_t> held_;
 };
 
 }  // namespace burin::refinement

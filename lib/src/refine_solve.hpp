@@ -1,6 +1,7 @@
 // Damped normal equations of a refinement, sparse, solved by conjugate gradients.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "refine_forward.hpp"
@@ -16,8 +17,9 @@ class NormalEquations {
     // Adds springs: weight_i / 2 * (moved_i + step_i)^2.
     void add_springs(const std::vector<double>& weight, double factor, const std::vector<double>& moved);
 
-    // Step that minimizes the quadratic model plus damping * diagonal. Unknowns that nothing depends on stay.
-    std::vector<double> step(double damping) const;
+    // Step that minimizes the quadratic model plus damping * diagonal. Unknowns that are held, or that nothing depends on,
+    // stay.
+    std::vector<double> step(double damping, const std::vector<std::uint8_t>& held) const;
 
   private:
     void multiply(const std::vector<double>& x, const std::vector<double>& damped, std::vector<double>& out) const;

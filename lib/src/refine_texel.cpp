@@ -17,8 +17,6 @@ Spread spread_of(const Placement& placement, Vec2 cell, double width) {
             std::max(1e-9, std::abs(placement.gradient.y) * cell.y / width)};
 }
 
-int local_count(const Feature& feature) { return kProfile + 2 * static_cast<int>(feature.profile->b.size()); }
-
 void start_using(Candidate& candidate) {
     if (candidate.used) return;
     candidate.used = true;
@@ -46,26 +44,33 @@ Range scales_near(const Feature& feature, const Foot& foot, double radius, doubl
 struct ProfileRange {
     Range height;
     bool any_internal = false, all_internal = true;
-    int facets = 0;       // that the offsets touch; the ground beyond an end is one
-    bool rises = false;
+    // The chord from the first offset to the last, and the most that the profile leaves it by.
+    double start = 0.0, slope = 0.0, bulge = 0.0;
 };
 
 // Of the profile between two offsets; its ends go on level.
 ProfileRange range_of(const SweptProfile& profile, Range b) {
-    ProfileRange out{{1e300, -1e300}};
-    const auto take = [&](double h) {
-        out.height = {std::min(out.height.low, h), std::max(out.height.high, h)};
+    const std::size_t count = profile.b.size();
+    const auto height_at = [&](double at, std::size_t facet) {
+        const double share = (at - profile.b[facet]) / (profile.b[facet + 1] - profile.b[facet]);
+        return profile.h[facet] + (profile.h[facet + 1] - profile.h[facet]) * share;
     };
-    if (b.low <= profile.left()) take(profile.h.front()), ++out.facets;
-    if (b.high >= profile.right()) take(profile.h.back()), ++out.facets;
-    for (std::size_t i = 0; i + 1 < profile.b.size(); ++i) {
-        const double left = profile.b[i], right = profile.b[i + 1];
-        if (b.high < left || b.low > right) continue;
-        const double slope = (profile.h[i + 1] - profile.h[i]) / (right - left);
-        take(b.low <= left ? profile.h[i] : profile.h[i] + slope * (b.low - left));
-        take(b.high >= right ? profile.h[i + 1] : profile.h[i] + slope * (b.high - left));
-        ++out.facets;
-        out.rises = slope > 0.0;
+    std::size_t first = 0;
+    while (first + 2 < count && profile.b[first + 1] < b.low) ++first;
+    std::size_t last = first;
+    while (last + 2 < count && profile.b[last + 1] <= b.high) ++last;
+    ProfileRange out;
+    out.start = b.low <= profile.left() ? profile.h.front() : b.low >= profile.right() ? profile.h.back() : height_at(b.low, first);
+    const double end = b.high >= profile.right() ? profile.h.back() : b.high <= profile.left() ? profile.h.front() : height_at(b.high, last);
+    out.slope = (end - out.start) / (b.high - b.low);
+    out.height = {std::min(out.start, end), std::max(out.start, end)};
+    for (std::size_t i = first; i <= last + 1; ++i) {
+        if (profile.b[i] <= b.low || profile.b[i] >= b.high) continue;
+        out.height = {std::min(out.height.low, profile.h[i]), std::max(out.height.high, profile.h[i])};
+        out.bulge = std::max(out.bulge, std::abs(profile.h[i] - out.start - out.slope * (profile.b[i] - b.low)));
+    }
+    for (std::size_t i = first; i <= last; ++i) {
+        if (b.high < profile.b[i] || b.low > profile.b[i + 1]) continue;
         const bool internal = (profile.internal_mask >> i) & 1u;
         out.any_internal |= internal;
         out.all_internal &= internal;
@@ -100,53 +105,55 @@ bool TexelModel::gather(int x, int y) {
         ground_ = level;
     }
     if (candidates_.size() < tile_list_.size()) candidates_.resize(tile_list_.size());
-    for (const std::uint32_t index : tile_list_) consider(index, texel_);
+    for (const Listed& listed : tile_list_) consider(listed, texel_);
     if (near_step_) {
-        steps_[0] = tile_steps_;
-        keep_nearest_steps(layout_, texel_.centre, texel_.half, steps_[0]);
+        steps_[0] = *tile_steps_;
+        if (divisions_ > kWhole) keep_nearest_steps(layout_, texel_.centre, texel_.half, steps_[0]);
     }
     return count_ > 0;
 }
 
-// A tile without a step has one ground, so that most of its features can be ruled out at once.
+// What acts nowhere in the tile is left out; where the tile has one ground, so is what others leave no say.
 void TexelModel::enter_tile(std::size_t tile, int column, int row) {
     tile_ = tile;
-    const auto first = layout_.listed.begin() + layout_.first[tile], last = layout_.listed.begin() + layout_.first[tile + 1];
-    tile_list_.assign(first, last);
-    tile_steps_.clear();
-    const Vec2 side = layout_.side * double(kTile);
-    const Square square{{(column + 0.5) * side.x, (row + 0.5) * side.y}, side, 0.5 * length(side), 1.0};
-    if (!layout_.tile_has_step[tile]) return thin_out_tile(square, column, row);
-    nearest_steps_of_tile(layout_, column, row, tile_steps_);
-}
-
-void TexelModel::thin_out_tile(const Square& square, int column, int row) {
-    ground_ = layout_.outer_level;
-    near_step_ = false;
-    if (!layout_.ground.empty()) {
-        const std::size_t k = static_cast<std::size_t>(row) * kTile * layout_.width + static_cast<std::size_t>(column) * kTile;
-        ground_ = layout_.ground[k];
-        for (int y = row * kTile; y < std::min((row + 1) * kTile, layout_.height); ++y)
-            for (int x = column * kTile; x < std::min((column + 1) * kTile, layout_.width); ++x)
-                if (layout_.ground[static_cast<std::size_t>(y) * layout_.width + x] != layout_.ground[k]) return;
-    }
+    const Vec2 side = layout_.side * double(kTile), centre{(column + 0.5) * side.x, (row + 0.5) * side.y};
     // Texels count as near a feature a little beyond it.
-    const double radius = square.half + kNearMargin;
+    const double radius = 0.5 * length(side) + kNearMargin;
     tile_actors_.clear();
-    for (const std::uint32_t index : tile_list_) {
-        Actor actor = actor_of(index);
-        const Vec2 p = square.centre - actor.offset;
-        actor.foot = foot_of(actor.feature->frame, p);
-        actor.reach = reach_at(actor.feature->frame, p, actor.foot, actor.feature->left, actor.feature->right, radius);
-        if (!actor.reach.possible && is_tame(actor.feature->frame, actor.foot, radius)) continue;
+    for (std::uint32_t k = layout_.first[tile]; k < layout_.first[tile + 1]; ++k) {
+        Actor actor = actor_of(layout_.listed[k]);
+        const Feature& feature = *actor.feature;
+        const Vec2 p = centre - actor.offset;
+        actor.foot = foot_of(feature.frame, p);
+        actor.reach = reach_at(feature.frame, p, actor.foot, feature.left, feature.right, radius);
+        if (!actor.reach.possible && is_tame(feature.frame, actor.foot, radius)) continue;
         actor.candidate = static_cast<int>(tile_actors_.size());
-        bound(actor, radius);
         tile_actors_.push_back(actor);
     }
-    steps_[0].clear();
-    cull(tile_actors_, steps_[0], radius);
+    if (tile_actors_.size() > 1 && has_one_ground(tile, column, row)) {
+        steps_[0].clear();
+        for (Actor& actor : tile_actors_) bound(actor, radius);
+        cull(tile_actors_, steps_[0], radius);
+    }
     tile_list_.clear();
-    for (const Actor& actor : tile_actors_) tile_list_.push_back(actor.instance);
+    for (const Actor& actor : tile_actors_)
+        tile_list_.push_back({actor.instance, guess_near(actor.feature->frame, actor.foot, radius)});
+    tile_steps_ = layout_.tile_has_step[tile] ? &layout_.tile_steps[tile] : nullptr;
+}
+
+// Takes the ground of a tile that no step comes near.
+bool TexelModel::has_one_ground(std::size_t tile, int column, int row) {
+    if (layout_.tile_has_step[tile]) return false;
+    near_step_ = false;
+    ground_ = layout_.outer_level;
+    if (layout_.ground.empty()) return true;
+    const TileSpan span = layout_.span(column, row);
+    const float* const first = &layout_.ground[static_cast<std::size_t>(span.y0) * layout_.width + span.x0];
+    ground_ = *first;
+    for (int y = span.y0; y < span.y1; ++y)
+        for (int x = span.x0; x < span.x1; ++x)
+            if (layout_.ground[static_cast<std::size_t>(y) * layout_.width + x] != *first) return false;
+    return true;
 }
 
 TexelModel::Actor TexelModel::actor_of(std::uint32_t index) const {
@@ -157,18 +164,21 @@ TexelModel::Actor TexelModel::actor_of(std::uint32_t index) const {
     return actor;
 }
 
-void TexelModel::consider(std::uint32_t index, const Square& texel) {
-    Actor actor = actor_of(index);
+void TexelModel::consider(const Listed& listed, const Square& texel) {
+    Actor actor = actor_of(listed.instance);
     const Feature& feature = *actor.feature;
     const Vec2 p = texel.centre - actor.offset;
-    actor.foot = foot_of(feature.frame, p);
-    if (!reach_at(feature.frame, p, actor.foot, feature.left, feature.right, texel.half + kNearMargin).possible) return;
+    actor.foot = foot_of(feature.frame, p, listed.guess);
+    actor.reach = reach_at(feature.frame, p, actor.foot, feature.left, feature.right, texel.half + kNearMargin);
+    if (!actor.reach.possible) return;
     Candidate& c = candidates_[count_];
-    c.instance = index;
+    c.instance = listed.instance;
     c.feature = &feature;
     c.used = false;
     actor.candidate = static_cast<int>(count_++);
-    actor.reach = reach_at(feature.frame, p, actor.foot, feature.left, feature.right, texel.half);
+    if (divisions_ == kWhole) return actors_[0].push_back(actor);
+    if (!actor.reach.plain)
+        actor.reach = reach_at(feature.frame, p, actor.foot, feature.left, feature.right, texel.half);
     if (!actor.reach.possible) return;
     bound(actor, texel.half);
     actors_[0].push_back(actor);
@@ -179,13 +189,13 @@ void TexelModel::bound(Actor& a, double radius) const {
     const Feature& f = *a.feature;
     const bool known = is_tame(f.frame, a.foot, radius) && std::min(f.frame.width0, f.frame.width1) > 1e-6;
     a.reach.plain = a.reach.plain && known;
+    a.plane = known && !a.reach.shaped;
+    const Range width = scales_near(f, a.foot, radius, f.frame.width0, f.frame.width1);
+    const Range scale = scales_near(f, a.foot, radius, f.frame.height0, f.frame.height1);
     Range b{-1e300, 1e300};
-    if (known && !a.reach.shaped) {
-        const Range width = scales_near(f, a.foot, radius, f.frame.width0, f.frame.width1);
-        b = product({a.foot.offset - radius, a.foot.offset + radius}, {1.0 / width.high, 1.0 / width.low});
-    }
+    if (a.plane) b = product({a.foot.offset - radius, a.foot.offset + radius}, {1.0 / width.high, 1.0 / width.low});
     const ProfileRange profile = range_of(*f.profile, b);
-    const Range height = product(profile.height, scales_near(f, a.foot, radius, f.frame.height0, f.frame.height1));
+    const Range height = product(profile.height, scale);
     a.low = f.level_left + height.low;
     a.high = f.level_left + height.high;
     a.left = !f.step || b.low <= 0.0;
@@ -193,12 +203,15 @@ void TexelModel::bound(Actor& a, double radius) const {
     a.within = b.low >= f.profile->left() && b.high <= f.profile->right();
     a.may_cut = profile.any_internal;
     a.must_cut = a.reach.plain && a.within && profile.any_internal && profile.all_internal;
-    a.plane = known && !a.reach.shaped && profile.facets == 1 && f.frame.width0 == f.frame.width1 && f.frame.height0 == f.frame.height1;
     if (!a.plane) return;
-    const double steep = (a.high - a.low) / (2.0 * radius);
-    a.middle = 0.5 * (a.low + a.high);
-    a.slope = normal_of(a.foot.tangent) * (profile.rises ? steep : -steep);
-    a.slack = 0.5 * std::abs(a.foot.bend) * radius * radius * steep;
+    // The chord of the profile, swept with the scales of the middle.
+    const double wide = 0.5 * (width.low + width.high), high = 0.5 * (scale.low + scale.high);
+    const double steep = high * profile.slope / wide;
+    a.middle = f.level_left + high * (profile.start + profile.slope * (a.foot.offset / wide - b.low));
+    a.slope = normal_of(a.foot.tangent) * steep;
+    a.slack = 0.5 * std::abs(a.foot.bend * steep) * radius * radius + high * profile.bulge +
+              0.5 * (scale.high - scale.low) * std::max(std::abs(profile.height.low), std::abs(profile.height.high)) +
+              std::abs(steep) * (std::abs(a.foot.offset) + radius) * 0.5 * (width.high - width.low) / width.low;
 }
 
 // Moves the actors and steps of the square above on to one of its quarters.
@@ -323,11 +336,29 @@ double TexelModel::doubt(const std::vector<Actor>& actors, const std::vector<Ste
     return std::min(limits.upper, limits.ceiling) - low;
 }
 
+// The most that the means of what acts in the square, combined, may differ from the mean of what they combine to: planes
+// that are parallel combine alike everywhere.
+double TexelModel::discord(const std::vector<Actor>& actors, const std::vector<StepLine>& steps, double half) const {
+    constexpr double kShare = 0.18;  // of the difference at a corner: the mean of two planes' maximum, over a square
+    const Base base = base_of(actors, steps);
+    const Limits limits = limits_of(actors, base);
+    const Actor& first = actors.front();
+    double sum = 0.0;
+    for (const Actor& a : actors) {
+        if (!a.plane || !a.ruler || a.may_cut != a.must_cut) return 1e300;
+        const Vec2 apart = a.slope - first.slope;
+        sum += kShare * std::sqrt(dot(apart, apart)) * half + a.slack;
+    }
+    const bool on_ground = base.step < 0 && limits.highest < 0 && limits.lowest < 0;
+    return on_ground ? sum + kShare * std::sqrt(dot(first.slope, first.slope)) * half : sum;
+}
+
 // Whether one evaluation gives the mean over the square.
 bool TexelModel::settled(const std::vector<Actor>& actors, const std::vector<StepLine>& steps, const Square& square,
                          int depth) const {
     if (actors.empty()) return true;
     if (doubt(actors, steps) * square.share <= precision_) return true;
+    if (actors.size() > 1 && discord(actors, steps, square.half) * square.share <= precision_) return true;
     const Actor& only = actors.front();
     if (actors.size() > 1 || !only.reach.plain) return false;
     if (near_step_ && only.feature->step && (steps.size() != 1 || steps[0].instance != only.instance)) {
@@ -374,6 +405,7 @@ bool TexelModel::ruled_by_one() {
 }
 
 double TexelModel::mean() {
+    if (divisions_ == kWhole) return cell_mean(texel_, 0, derivatives_);
     cull(actors_[0], steps_[0], texel_.half);
     most_divisions_ = divisions_;
     const std::size_t left = actors_[0].size();
@@ -399,7 +431,7 @@ double TexelModel::square_mean(const Square& square, int depth) {
 bool TexelModel::say_of(const Actor& actor, const Square& cell, double ground, bool any_level, Say& say) const {
     const Feature& f = *actor.feature;
     const Vec2 q = cell.centre - actor.offset;
-    say.placement = place(f.frame, q, actor.foot);
+    say.placement = place(f.frame, q, actor.foot, actor.reach.plain);
     if (!say.placement.acts) return false;
     const double width = scale_at(f.frame.width0, f.frame.width1, say.placement.along);
     if (width <= 1e-9) return false;

@@ -15,6 +15,9 @@
 
 namespace burin::refinement {
 
+// How many local quantities a feature has: see kPoints.
+inline int local_count(const Feature& feature) { return kProfile + 2 * static_cast<int>(feature.profile->b.size()); }
+
 // A feature near the texel.
 struct Candidate {
     std::uint32_t instance = 0;
@@ -55,11 +58,17 @@ class TexelModel {
         bool left = true, right = true;        // sides of its line that the square may touch
         bool within = false;                   // the square lies between the ends of its profile
         bool may_cut = true, must_cut = false;
-        // Its height over the square is a plane, but for `slack`.
+        // Its height over the square is a plane, up to `slack`.
         bool plane = false;
         double middle = 0.0, slack = 0.0;
         Vec2 slope;
         bool ruler = false;  // its height counts everywhere in the square
+    };
+
+    // A feature that may act in the tile.
+    struct Listed {
+        std::uint32_t instance = 0;
+        double guess = -1.0;  // see foot_of
     };
 
     // What stands in a square where no other feature has a say: the ground, or the nearest step.
@@ -86,8 +95,8 @@ class TexelModel {
     };
 
     void enter_tile(std::size_t tile, int column, int row);
-    void thin_out_tile(const Square& square, int column, int row);
-    void consider(std::uint32_t index, const Square& texel);
+    bool has_one_ground(std::size_t tile, int column, int row);
+    void consider(const Listed& listed, const Square& texel);
     Actor actor_of(std::uint32_t index) const;
     void bound(Actor& actor, double radius) const;
     void descend(int depth, const Square& part);
@@ -100,6 +109,7 @@ class TexelModel {
     bool settled(const std::vector<Actor>& actors, const std::vector<StepLine>& steps, const Square& square,
                  int depth) const;
     double doubt(const std::vector<Actor>& actors, const std::vector<StepLine>& steps) const;
+    double discord(const std::vector<Actor>& actors, const std::vector<StepLine>& steps, double half) const;
     bool joined_smoothly(const std::vector<Actor>& actors) const;
     bool ruled_by_one();
     double square_mean(const Square& square, int depth);
@@ -116,8 +126,8 @@ class TexelModel {
     const double precision_;
     const bool derivatives_;
     int most_divisions_ = 1;
-    std::vector<std::uint32_t> tile_list_;
-    std::vector<StepLine> tile_steps_;
+    std::vector<Listed> tile_list_;
+    const std::vector<StepLine>* tile_steps_ = nullptr;
     std::vector<Candidate> candidates_;
     std::size_t count_ = 0;
     // By depth: 0 is the texel, each next one a quarter of the one before.

@@ -11,10 +11,10 @@
 namespace burin::vectorizing {
 namespace {
 
-constexpr int kCoarseSide = 128;         // blocks along the shorter side
-constexpr double kLeveling = 0.02;       // weight of "no slope" where nothing else is known
-constexpr int kMostSteps = 600;          // of the conjugate gradients
-constexpr double kSettledSquare = 1e-10; // of the residual, against the first one
+constexpr int kCoarseSide = 64;          // blocks along the shorter side: four to the sigma of the blur
+constexpr double kLeastFlat = 0.15;       // share of a block's texels that tell its slope; without, it is level
+constexpr int kMostSteps = 4000;         // of the conjugate gradients
+constexpr double kSettledSquare = 1e-14; // of the residual, against the first one
 
 // The map in blocks, neighbours as in the lattice.
 struct Blocks {
@@ -59,7 +59,7 @@ Slopes measure_slopes(const Image& map, const Lattice& lattice, const std::vecto
 // A difference that two blocks should have.
 struct Link {
     int from = 0, to = 0;
-    double rise = 0.0, weight = 0.0;
+    double rise = 0.0;
 };
 
 std::vector<Link> make_links(const Slopes& slopes, const Blocks& blocks) {
@@ -72,9 +72,7 @@ std::vector<Link> make_links(const Slopes& slopes, const Blocks& blocks) {
                 if (to < 0) continue;
                 const double count = slopes.count[axis][from] + slopes.count[axis][to];
                 const double rise = slopes.rise[axis][from] + slopes.rise[axis][to];
-                const double weight = 0.5 * count / area;
-                const double wanted = count > 0.0 ? blocks.side * rise / count : 0.0;
-                links.push_back({from, to, wanted * weight / (weight + kLeveling), weight + kLeveling});
+                links.push_back({from, to, 0.5 * count > kLeastFlat * area ? blocks.side * rise / count : 0.0});
             }
     return links;
 }
@@ -83,8 +81,8 @@ std::vector<Link> make_links(const Slopes& slopes, const Blocks& blocks) {
 std::vector<double> solve_heights(const std::vector<Link>& links, std::size_t size) {
     std::vector<double> height(size, 0.0), residual(size, 0.0), product(size);
     for (const Link& link : links) {
-        residual[link.from] -= link.weight * link.rise;
-        residual[link.to] += link.weight * link.rise;
+        residual[link.from] -= link.rise;
+        residual[link.to] += link.rise;
     }
     std::vector<double> direction = residual;
     const auto square = [](const std::vector<double>& v) {
@@ -97,7 +95,7 @@ std::vector<double> solve_heights(const std::vector<Link>& links, std::size_t si
     for (int step = 0; step < kMostSteps && now > kSettledSquare * first && now > 0.0; ++step) {
         std::fill(product.begin(), product.end(), 0.0);
         for (const Link& link : links) {
-            const double flow = link.weight * (direction[link.to] - direction[link.from]);
+            const double flow = direction[link.to] - direction[link.from];
             product[link.to] += flow;
             product[link.from] -= flow;
         }

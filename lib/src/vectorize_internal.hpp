@@ -93,8 +93,15 @@ struct Regions {
     // a large map may show its walls softer than a small one.
     struct Border {
         double near = 0.0, far = 0.0;
+        int walls = 0;   // places where the map does not rise gently on and on
         int length = 0;
 
+        // A level that soft ground passes: no wall lies there, and the map rises on and on.
+        bool is_ramp() const { return 5 * walls < 3 * length; }
+        void add(const Border& more, double sign) {
+            near += sign * more.near, far += sign * more.far;
+            walls += more.walls, length += more.length;
+        }
         // The greater of both means, seen upwards from the lower region to the higher one.
         double jump(double gap) const { return std::max(gap < 0 ? -near : near, gap < 0 ? -far : far) / length; }
     };

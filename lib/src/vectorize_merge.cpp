@@ -19,7 +19,8 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 using Borders = std::map<Pair, Regions::Border>;
 
 // The borders between the texels of a band and their right and lower neighbours.
-Borders measure_borders(const Image& map, const Lattice& lattice, const std::vector<std::uint32_t>& label, const Band& band) {
+Borders measure_borders(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
+                        const std::vector<std::uint32_t>& label, const Band& band) {
     Borders borders;
     const int far = std::clamp(std::min(lattice.width, lattice.height) / 512, 3, 24);
     Pair last{kNone, kNone};
@@ -32,8 +33,11 @@ Borders measure_borders(const Image& map, const Lattice& lattice, const std::vec
         const double sign = a > b ? -1.0 : 1.0;
         const Pair pair{std::min(a, b), std::max(a, b)};
         if (pair != last) border = &borders[pair], last = pair;
-        border->near += sign * jump_at(3);
+        const float near = jump_at(3);
+        border->near += sign * near;
         if (far > 3) border->far += sign * jump_at(far);
+        const bool soft = flat[lattice.index(x, y)] && flat[lattice.index(x + dx, y + dy)];
+        border->walls += !soft || (std::fabs(near) > 0.015f && std::fabs(jump_at(1)) > 0.6f * std::fabs(near));
         ++border->length;
     };
     for (int y = band.begin; y < band.end; ++y) {
@@ -52,12 +56,7 @@ Borders measure_borders(const Image& map, const Lattice& lattice, const std::vec
 }
 
 void add_borders(Borders& borders, const Borders& more) {
-    for (const auto& [pair, border] : more) {
-        Regions::Border& sum = borders[pair];
-        sum.near += border.near;
-        sum.far += border.far;
-        sum.length += border.length;
-    }
+    for (const auto& [pair, border] : more) borders[pair].add(border, 1.0);
 }
 
 // Texels on walls count next to nothing for the level of a region.
@@ -98,7 +97,7 @@ struct Weak {
     std::uint32_t a, b;
 };
 
-// Borders that are no edge: the map does not jump there, or the difference is within the grain, or one of both regions is
+// Borders that are no edge: soft ground only passes a level there, the map does not jump, or the difference is within the grain, or one of both regions is
 // too small to be worth a path. The most alike first.
 std::vector<Weak> find_weak(const Regions& regions, double least_jump, double least_energy) {
     std::vector<Weak> weak;
@@ -107,7 +106,7 @@ std::vector<Weak> find_weak(const Regions& regions, double least_jump, double le
         const double jump = border.jump(gap);
         const double small = std::min(regions.area[pair.first], regions.area[pair.second]);
         const double energy = small * gap * gap;
-        if (jump < least_jump || jump < 0.3 * std::fabs(gap) || energy < least_energy)
+        if ((border.is_ramp() && std::fabs(gap) < 3.0 * least_jump) || jump < least_jump || jump < 0.3 * std::fabs(gap) || energy < least_energy)
             weak.push_back({std::fabs(gap), pair.first, pair.second});
     }
     std::stable_sort(weak.begin(), weak.end(), [](const Weak& p, const Weak& q) { return p.strength < q.strength; });
@@ -133,11 +132,7 @@ void join_regions(Regions& regions, std::vector<std::uint32_t>& parent) {
     for (const auto& [pair, border] : regions.borders) {
         const std::uint32_t a = renamed(pair.first), b = renamed(pair.second);
         if (a == b) continue;
-        Regions::Border& sum = borders[{std::min(a, b), std::max(a, b)}];
-        const double sign = a > b ? -1.0 : 1.0;
-        sum.near += sign * border.near;
-        sum.far += sign * border.far;
-        sum.length += border.length;
+        borders[{std::min(a, b), std::max(a, b)}].add(border, a > b ? -1.0 : 1.0);
     }
     regions.borders = std::move(borders);
     settle_regions(regions);
@@ -171,7 +166,7 @@ void measure_regions(const Image& map, const Lattice& lattice, const std::vector
     std::vector<Borders> borders(kSlices);
     std::vector<std::vector<Regions::Sum>> sums(kSlices);
     for_each_band(lattice.height, kSlices, lattice.threads, [&](const Band& band) {
-        borders[band.index] = measure_borders(map, lattice, label, band);
+        borders[band.index] = measure_borders(map, lattice, flat, label, band);
         sums[band.index].resize(regions.level.size());
         sum_texels(map, lattice, flat, label, band, sums[band.index]);
     });

@@ -64,6 +64,34 @@ struct Section {
     std::vector<double> weight;
 };
 
+// What a section comes to far out on one side (-1 left, 1 right): there lies the ground the line was cut into, which on
+// soft ground is not the level of the region. 0 where another line is near.
+double tail_of(const Section& section, int side) {
+    constexpr int kNear = static_cast<int>(8.0 / kSectionStep);
+    const int half = static_cast<int>(section.height.size() / 2);
+    const auto index = [&](int k) { return static_cast<std::size_t>(half + side * k); };
+    const double heaviest = *std::max_element(section.weight.begin(), section.weight.end());
+    int reach = half;
+    while (reach > 0 && section.weight[index(reach)] < std::max(2.0, 0.35 * heaviest)) --reach;
+    if (reach < kNear) return 0.0;
+    double sum = 0.0, weight = 0.0;
+    for (int k = reach * 3 / 4; k <= reach; ++k) {
+        sum += section.weight[index(k)] * section.height[index(k)];
+        weight += section.weight[index(k)];
+    }
+    return weight > 0.0 ? sum / weight : 0.0;
+}
+
+// Lets a line's section run out to nothing on both sides.
+void level_tails(Section& section) {
+    const int half = static_cast<int>(section.height.size() / 2);
+    const double left = tail_of(section, -1), right = tail_of(section, 1);
+    for (int k = -half; k <= half; ++k) {
+        const double t = 0.5 + 0.5 * k / half;
+        section.height[half + k] -= left + (right - left) * t;
+    }
+}
+
 // Sections of all chains: heights relative to the ground of the side, mean over the texels of each offset.
 std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, const Image& map,
                                       const std::vector<Owner>& owners, const Regions& regions, int half) {
@@ -105,6 +133,7 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
             sections[c].height[k] = trimmed_mean(begin, end);
             sections[c].weight[k] = picked[c * bins + k].count;
         }
+        if (chains[c].chain.kind != ChainKind::step) level_tails(sections[c]);
     }
     return sections;
 }

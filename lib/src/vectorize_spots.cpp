@@ -11,9 +11,9 @@
 namespace burin::vectorizing {
 namespace {
 
-constexpr double kLeastShare = 0.75;    // of a part's squares, that its distance from the middle tells
-constexpr double kLeastEnergy = 2e-5;   // of the map's, for one spot
-constexpr std::uint32_t kMostFlat = 12;           // flat texels at its bottom: a plateau has more
+constexpr double kLeastShare = 0.8;    // of a part's squares, that its distance from the middle tells
+constexpr double kLeastEnergy = 5e-5;   // of the map's, for one spot
+constexpr std::uint32_t kMostFlat = 12;  // flat texels at its bottom: a plateau has more
 constexpr double kMargin = 2.0;         // texels around a part that belong to its spot
 
 struct Part {
@@ -77,6 +77,37 @@ std::vector<int> texels_around(const Part& part, const Lattice& lattice) {
     std::sort(texels.begin(), texels.end());
     texels.erase(std::unique(texels.begin(), texels.end()), texels.end());
     return texels;
+}
+
+// Whether the ground all round a part is at one height: slivers along a wall and the corners of a pit are no spots.
+bool on_level_ground(const Part& part, const Image& map, const Lattice& lattice, double contrast) {
+    constexpr int kNear = 1, kFar = 3;  // texels from the part
+    constexpr double kMostUneven = 0.3;  // of the contrast
+    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+    for (const Vec2 p : part.texels) {
+        x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
+        y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
+    }
+    const int columns = static_cast<int>(x1 - x0) + 1 + 2 * kFar, rows = static_cast<int>(y1 - y0) + 1 + 2 * kFar;
+    std::vector<std::uint8_t> distance(static_cast<std::size_t>(columns) * rows, kFar + 1);
+    for (const Vec2 p : part.texels)
+        for (int dy = -kFar; dy <= kFar; ++dy)
+            for (int dx = -kFar; dx <= kFar; ++dx) {
+                const int column = static_cast<int>(p.x - x0) + kFar + dx, row = static_cast<int>(p.y - y0) + kFar + dy;
+                std::uint8_t& d = distance[static_cast<std::size_t>(row) * columns + column];
+                d = std::min<std::uint8_t>(d, static_cast<std::uint8_t>(std::max(std::abs(dx), std::abs(dy))));
+            }
+    std::vector<float> around;
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const std::uint8_t d = distance[static_cast<std::size_t>(row) * columns + column];
+            const int texel = lattice.index(static_cast<int>(std::floor(x0)) - kFar + column, static_cast<int>(std::floor(y0)) - kFar + row);
+            if (d > kNear && d <= kFar && texel >= 0) around.push_back(map.texels[texel]);
+        }
+    std::sort(around.begin(), around.end());
+    if (around.size() < 8) return false;
+    const std::size_t outliers = around.size() / 20;
+    return around[around.size() - 1 - outliers] - around[outliers] < kMostUneven * contrast;
 }
 
 // A line with ends that carry a profile round, before it is known to fit.
@@ -196,7 +227,7 @@ std::vector<Chain> trace_spots(Image& map, const Lattice& lattice, ChainKind kin
     const std::uint32_t most_texels = 4u * static_cast<std::uint32_t>(r * r);
     for (const Part& part : collect_parts(mask, find_flat(map, lattice, noise), lattice, most_texels)) {
         std::optional<Chain> spot = make_spot(part, response, lattice, kind, 1.6 * r, kLeastEnergy * energy);
-        if (!spot) continue;
+        if (!spot || !on_level_ground(part, map, lattice, spot->contrast)) continue;
         for (const int texel : texels_around(part, lattice)) map.texels[texel] += sign * response.texels[texel];
         spots.push_back(std::move(*spot));
     }

@@ -12,7 +12,7 @@ def read_document():
     with open(DOCUMENT, encoding="utf-8") as file:
         sections = re.split(r"^## (.+)$", file.read(), flags=re.M)[1:]
     return {name: {key: (kind, bool(optional)) for key, kind, optional in ROW.findall(text)}
-            for name, text in zip(sections[::2], sections[1::2])}
+            for names, text in zip(sections[::2], sections[1::2]) for name in names.split(" and ")}
 
 
 def section_of(command, result):

@@ -43,6 +43,12 @@ def groove(x, y):
     return 1.0 - 0.8 * max(first, second)
 
 
+def plate(x, y):
+    """A raised plate with a groove across it, on a map of 96 x 96 texels: steps and lines."""
+    ground = 0.8 if abs(x - 48.0) < 30.0 and abs(y - 50.0) < 24.0 else 0.3
+    return ground - 0.25 * max(0.0, 1.0 - abs(y - 0.2 * x - 40.0) / 4.0)
+
+
 def noise_rows(side, seed=12345):
     """Rows of white noise from a linear congruential generator."""
     rows = []
@@ -121,6 +127,7 @@ def write_inputs(folder):
         "groove_named.xyz": grooves,
         "groove_depth.png": png(side, side, sampled(side, side, lambda x, y: 1.0 - groove(x, y))),
         "wide.png": png(64, 32, sampled(64, 32, lambda x, y: 0.2 if math.hypot(x - 32, y - 16) < 9 else 0.9)),
+        "plate.png": png(side, side, sampled(side, side, plate)),
         "constant.png": png(16, 16, [[128] * 16] * 16, bits=8),
         "one_texel.png": png(1, 1, [[200]], bits=8),
         "noise.png": png(128, 128, noise_rows(128)),

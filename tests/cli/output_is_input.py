@@ -42,6 +42,13 @@ def main():
             refuse(verdicts, arguments.burin, ["convert", map_glb, "-o", name], map_glb, f"convert onto {name}")
         refuse(verdicts, arguments.burin, ["convert", symbolic, "-o", map_glb], map_glb, "convert of a link onto its file")
         refuse(verdicts, arguments.burin, ["convert", groove, "--model", asset, "-o", asset], asset, "convert onto --model")
+        map_png, map_html, map_svg = (os.path.join(folder, "map." + suffix) for suffix in ("png", "html", "svg"))
+        for name, option in ((map_png, "--error-map"), (map_html, "--report")):
+            shutil.copyfile(groove, name)
+            words = ["convert", name, "-o", os.path.join(folder, "new.glb"), option, name]
+            refuse(verdicts, arguments.burin, words, name, f"convert with {option} onto the map")
+        shutil.copyfile(groove, map_svg)
+        refuse(verdicts, arguments.burin, ["vectorize", map_svg, "-o", map_svg], map_svg, "vectorize onto the map")
         for words in ([], ["--top"]):
             refuse(verdicts, arguments.burin, ["render", asset_png, "-o", asset_png] + words, asset_png, f"render {words}")
 

@@ -31,6 +31,8 @@ def main():
         made = harness.run(arguments.burin, ["convert", groove, "-o", asset])
         verdicts.expect(made.status == 0, "the asset is converted", made)
         commands = (["convert", groove, "-o", os.path.join(out, "a.glb")],
+                    ["vectorize", groove, "-o", os.path.join(out, "a.svg"), "--report", os.path.join(out, "a.html"),
+                     "--error-map", os.path.join(out, "a.png")],
                     ["render", asset, "-o", os.path.join(out, "a.png"), "--size", "16", "--samples", "1"],
                     ["render", asset, "--top", "-o", os.path.join(out, "a.exr"), "--size", "16"],
                     ["check", asset, "--against", groove, "--max-rms", "0"],

@@ -112,7 +112,7 @@ TEST(RefineForward, EqualsTheTruthsMapOnHardPatterns) {
         const Pattern pattern = in_texels(testing::random_pattern(seed, options), 320);
         const Image truth = map_of(pattern, 320, 320, 16);
         const ResolvedPattern input = resolved(pattern);
-        const Image model = refinement::Forward(input, truth, {1.0, 1.0}).image({});
+        const Image model = refinement::Forward(input, truth, {1.0, 1.0}, refinement::every_texel(320, 320)).image({});
         double squares = 0.0;
         int far = 0;
         for (std::size_t k = 0; k < truth.texels.size(); ++k) {
@@ -132,7 +132,7 @@ TEST(RefineForward, TexelsNeedNotBeSquare) {
     const Pattern pattern = in_texels(testing::random_pattern(21, options), 300);
     const Image truth = map_of(pattern, 300, 200, 16);
     const ResolvedPattern input = resolved(pattern);
-    const Image model = refinement::Forward(input, truth, {1.0, 1.5}).image({});
+    const Image model = refinement::Forward(input, truth, {1.0, 1.5}, refinement::every_texel(300, 200)).image({});
     double squares = 0.0;
     for (std::size_t k = 0; k < truth.texels.size(); ++k) squares += std::pow(model.texels[k] - truth.texels[k], 2);
     EXPECT_LT(std::sqrt(squares / static_cast<double>(truth.texels.size())), 4e-4);
@@ -144,13 +144,14 @@ TEST(RefineForward, GradientEqualsDifferences) {
     const Image map = map_of(drawn, 256, 256, 8);
     Pattern start = in_texels(bench::disturbed(drawn, 256, 0.3, 0.05, 5), 256);
     const refinement::Parameters parameters(start, RefineOptions{});
+    const refinement::Sampling sampling = refinement::every_texel(256, 256);
     const auto misfit = [&](const std::vector<double>& step, std::vector<double>* gradient) {
         Pattern moved = start;
         refinement::Parameters own = parameters;
         own.apply(step, 10.0, moved);
         const ResolvedPattern input = resolved(moved);
         const std::vector<refinement::ElementUnknowns> elements = own.of_elements(moved, input);
-        const refinement::Prediction prediction = refinement::Forward(input, map, {1.0, 1.0}).predict(elements, {});
+        const refinement::Prediction prediction = refinement::Forward(input, map, {1.0, 1.0}, sampling).predict(elements, {});
         if (gradient) {
             gradient->assign(static_cast<std::size_t>(own.count()), 0.0);
             for (const refinement::Equations& part : prediction.parts)

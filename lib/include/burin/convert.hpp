@@ -1,8 +1,10 @@
 // All stages in order: a height map and a model become one binary glTF.
 //
-//     HeightMap + Model --[convert_map]--> bytes of OUT.glb, and what was measured on the way
+//     HeightMap         --[find_pattern]--> FoundPattern, and what was measured on the way
+//     HeightMap + Model --[convert_map]---> the same, and the bytes of OUT.glb
 //
-//     vectorize -> resolve -> grid -> pack -> measure -> refine -> (again from resolve) -> bake -> glTF
+//     vectorize -> resolve -> grid -> pack -> measure -> refine -> (again from resolve) | -> bake -> glTF
+//                                                                          find_pattern | convert_map
 //
 // The figures are measured on the bytes that are written: the textures are unpacked again, rasterized by the evaluator
 // and compared with the map (DESIGN 7). Nothing a stage estimates stands in for them.
@@ -36,9 +38,14 @@ struct ConvertOptions {
     PackOptions pack;
     FallbackOptions fallback;
     AttachOptions attach;
-    // Both textures together; elements are given up until they fit, as far as that goes. 0: a sixteenth of the map's
-    // 8-bit size, at least 8 KiB, and no more than 63 KiB up to 2048 x 2048.
+    // Bound on both textures together, as uploaded: elements are given up until they fit. 0: no bound, but they are given
+    // up, as far as that goes, beyond a sixteenth of the map's 8-bit size (16 KiB for small maps, 63 KiB up to 2048 x 2048).
     std::size_t max_texture_bytes = 0;
+    // Bound on the 99.9th percentile of the height error (ConvertStats::p999), a share of the range: curves are fitted
+    // ever closer until at most 1 texel in 1000 errs by more. 0: no bound. Range [0, 1]; without effect on
+    // `vectorize.tolerance`, with which the search begins. Without max_texture_bytes the textures may then grow to the
+    // map's own 8-bit size.
+    double max_error = 0.0;
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
 
@@ -50,6 +57,17 @@ enum class Unrefined {
     not_path_like,  // the paths are not what the map is made of: their exact place shows nothing
     too_much_work,  // wide profiles on long paths
     no_gain,        // the refined pattern explained less, or could not be stored
+};
+
+// What each class of paths explains (DESIGN 7). steps + lines + left = 1.
+//
+// The map is first drawn with its step paths and the levels between them alone: that explains `steps`. Grooves and
+// ridges are then added: `lines` is what they explain on top, below 0 where they do harm. A groove that runs along a
+// wall and hides a mistake of its step counts with the lines. What is left is exact; the border between the two others
+// is measured with fewer samples, within 0.0005.
+struct ExplainedShares {
+    double steps = 0.0, lines = 0.0;
+    double left = 1.0;  // by neither; the fallback maps carry it
 };
 
 struct ConvertStats {
@@ -65,21 +83,39 @@ struct ConvertStats {
     bool path_like = true;                // false: the paths carry only a little of the map
     double explained = 0.0;               // DESIGN 7, paths alone
     double traced_explained = 0.0;        // before refining, and before paths that explain next to nothing were given up
-    double rms = 0.0, p999 = 0.0, max = 0.0;  // height errors as shares of the range
+    ExplainedShares shares;               // of `explained`, by class
+    int steps = 0, grooves = 0, ridges = 0;  // of `paths`
+    // Height errors of what is stored, as shares of the range; p999: at most 1 texel in 1000 errs by more.
+    double rms = 0.0, p999 = 0.0, max = 0.0;
+    double p999_without_smooth = 0.0;     // the same after the smooth part of the error is taken away
     std::vector<std::pair<std::string, double>> seconds;  // per stage, in order
 };
 
-struct Converted {
-    std::vector<std::uint8_t> glb;
+// The paths of a map, and their textures: all of a conversion that needs no model.
+struct FoundPattern {
+    Pattern pattern;          // as traced and refined, in metres; without paths that could not be resolved
+    PackedTextures textures;  // as stored
+    PathDetail detail;
     ConvertStats stats;
 };
 
-// Requires: the model was checked with find_material, or its error is welcome late.
-// Ensures: the bytes depend on map, model and options alone, not on `threads`; the time in `stats` is the only thing that
+struct Converted : FoundPattern {
+    std::vector<std::uint8_t> glb;
+};
+
+// Ensures: the result depends on map and options alone, not on `threads`; the time in `stats` is the only thing that
 // differs between runs.
-// Fails with the error of the stage that failed, and with invalid_argument when `progress` returns false. Throws
-// std::logic_error when what was packed breaks the format, a bug.
-// Cost: that of vectorizing and refining; the other stages together stay below a few seconds for 2048 x 2048.
+// Fails with the error of the stage that failed, with invalid_argument when `progress` returns false, and with
+// invalid_argument when max_texture_bytes or max_error cannot be kept; the message holds a value that can, tried out.
+// Throws std::logic_error when what was packed breaks the format, a bug.
+// Cost: that of vectorizing and refining, up to four times with max_error; the other stages together stay below a few
+// seconds for 2048 x 2048.
+Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& options = {},
+                                  const Progress& progress = {});
+
+// Requires: the model was checked with find_material, or its error is welcome late.
+// Ensures, fails: as find_pattern; the bytes depend on map, model and options alone.
+// Cost: find_pattern, and the fallback maps.
 Result<Converted> convert_map(const HeightMap& map, const Model& model, const ConvertOptions& options = {},
                               const Progress& progress = {});
 

@@ -85,6 +85,12 @@ struct Pattern {
     std::vector<Path> paths;
 };
 
+// What a path is, by the profile it carries: a step's ends lie at different heights (by more than depth / 4096, as
+// `resolve_pattern` has it); of the others, a groove goes farther down than up.
+enum class PathKind : std::uint8_t { groove, ridge, step };
+PathKind path_kind(const Pattern& pattern, const Path& path);
+inline constexpr PathKind kPathKinds[] = {PathKind::groove, PathKind::ridge, PathKind::step};
+
 // Relief that spans the height from `highest` to `lowest` metres, as `Pattern::depth` and `base_offset` bound it.
 inline double highest(const Pattern& p) { return p.base_offset; }
 inline double lowest(const Pattern& p) { return p.base_offset - p.depth; }

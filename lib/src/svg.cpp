@@ -1,0 +1,139 @@
+#include <burin/svg.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <functional>
+
+namespace burin {
+namespace {
+
+// As many digits as tell a double (a float) from all others.
+template <typename Number>
+std::string exact(Number value) {
+    std::array<char, 32> text;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return {text.data(), end};
+}
+
+std::string pair_of(double a, double b) { return exact(a) + "," + exact(b); }
+
+std::string attribute(const std::string& name, const std::string& value) { return " " + name + "=\"" + value + "\""; }
+
+// Attributes that say what is usual are left out.
+std::string unusual(const std::string& name, const std::string& value, const std::string& usual) {
+    return value == usual ? "" : attribute("data-burin-" + name, value);
+}
+
+template <typename List>
+std::string spaced(const List& list, const std::function<std::string(const typename List::value_type&)>& text) {
+    std::string all;
+    for (const auto& item : list) all += (all.empty() ? "" : " ") + text(item);
+    return all;
+}
+
+std::string path_data(const std::vector<Element>& elements) {
+    std::string data;
+    if (!elements.empty()) data = "M" + pair_of(elements.front().p0.x, elements.front().p0.y);
+    for (const Element& e : elements) {
+        data += e.kind == ElementKind::line ? " L" : " Q" + pair_of(e.p1.x, e.p1.y) + " ";
+        data += pair_of(e.p2.x, e.p2.y);
+    }
+    const bool returns = !elements.empty() && elements.front().p0 == elements.back().p2;
+    return returns ? data + " Z" : data;
+}
+
+const char* name_of(JoinKind join) { return std::array{"mitre", "round", "bevel"}[static_cast<std::size_t>(join)]; }
+const char* name_of(CapKind cap) { return std::array{"hip", "butt", "round", "taper"}[static_cast<std::size_t>(cap)]; }
+const char* name_of(FacetClass facet) {
+    return std::array{"automatic", "internal", "external"}[static_cast<std::size_t>(facet)];
+}
+
+std::string material_text(const Material& m) {
+    if (!m.overrides) return "none";
+    std::string text;
+    for (const float c : m.base_color) text += exact(c) + ",";
+    return text + exact(m.metallic) + "," + exact(m.roughness);
+}
+
+std::string header(const Pattern& pattern) {
+    const auto millimetres = [](double metres) { return exact(metres * 1000.0) + "mm"; };
+    const Vec2 size = pattern.size;
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+           "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n    " +
+           attribute("width", millimetres(size.x)) + attribute("height", millimetres(size.y)) +
+           attribute("viewBox", "0 0 " + exact(size.x) + " " + exact(size.y)) + "\n    " +
+           attribute("data-burin-version", "1") + attribute("data-burin-size", pair_of(size.x, size.y)) +
+           attribute("data-burin-depth", exact(pattern.depth)) +
+           attribute("data-burin-base-offset", exact(pattern.base_offset)) +
+           attribute("data-burin-wrap", pattern.wrap == Wrap::repeat ? "repeat" : "clamp") +
+           attribute("data-burin-outer-level", exact(pattern.outer_level)) +
+           attribute("data-burin-materials", spaced(pattern.materials, material_text)) + ">\n";
+}
+
+std::string layer(const std::string& label, const std::string& style, const std::string& content) {
+    return "  <g" + attribute("id", label) + attribute("inkscape:groupmode", "layer") + attribute("inkscape:label", label) +
+           attribute("style", style) + ">\n" + content + "  </g>\n";
+}
+
+// The section as it would be cut out of the surface, up being up; at the page's origin.
+std::string profile_element(const Profile& profile, std::size_t index) {
+    const auto& points = profile.points;
+    std::string drawn;
+    for (const ProfilePoint& p : points) drawn += (drawn.empty() ? "M" : " L") + pair_of(p.b, 0.0 - p.h);
+    const double width = points.back().b - points.front().b;
+    return "    <path" + attribute("id", "profile-" + std::to_string(index)) +
+           attribute("data-burin-points", spaced(points, [](const ProfilePoint& p) { return pair_of(p.b, p.h); })) +
+           unusual("facets", spaced(profile.facets, [](const FacetClass& f) { return std::string(name_of(f)); }), "") +
+           attribute("stroke-width", exact(width / 100.0)) + attribute("d", drawn) + "/>\n";
+}
+
+// Two scales for each element, at its ends; none when all are 1.
+std::string scales(const Path& path, double Element::*at_start, double Element::*at_end) {
+    const bool plain = std::all_of(path.elements.begin(), path.elements.end(),
+                                   [&](const Element& e) { return e.*at_start == 1.0 && e.*at_end == 1.0; });
+    if (plain) return "";
+    return spaced(path.elements, [&](const Element& e) { return pair_of(e.*at_start, e.*at_end); });
+}
+
+// What is drawn: the profile's width where the path is widest, and enough to be seen where a wall is vertical.
+double stroke_width(const Pattern& pattern, const Path& path) {
+    const auto& points = pattern.profiles[path.profile].points;
+    double scale = 0.0;
+    for (const Element& e : path.elements) scale = std::max({scale, e.width0, e.width1});
+    const double hair = std::min(pattern.size.x, pattern.size.y) / 2048.0;
+    return std::max((points.back().b - points.front().b) * scale, hair);
+}
+
+std::string path_element(const Pattern& pattern, std::size_t index) {
+    const Path& path = pattern.paths[index];
+    return "    <path" + attribute("id", "path-" + std::to_string(index)) +
+           attribute("data-burin-profile", std::to_string(path.profile)) +
+           attribute("data-burin-level", exact(path.level)) + unusual("material", std::to_string(path.material), "0") +
+           unusual("closed", path.closed ? "yes" : "no", "no") + unusual("join", name_of(path.join), "mitre") +
+           unusual("start-cap", name_of(path.start_cap), "hip") + unusual("end-cap", name_of(path.end_cap), "hip") +
+           unusual("widths", scales(path, &Element::width0, &Element::width1), "") +
+           unusual("heights", scales(path, &Element::height0, &Element::height1), "") +
+           attribute("stroke-width", exact(stroke_width(pattern, path))) + attribute("d", path_data(path.elements)) +
+           "/>\n";
+}
+
+std::string path_layer(const Pattern& pattern, PathKind kind, const char* label, const char* color) {
+    std::string content;
+    for (std::size_t i = 0; i < pattern.paths.size(); ++i)
+        if (path_kind(pattern, pattern.paths[i]) == kind) content += path_element(pattern, i);
+    return layer(label, std::string("fill:none;stroke:") + color + ";stroke-opacity:0.6;stroke-linejoin:miter", content);
+}
+
+}  // namespace
+
+std::string write_svg(const Pattern& pattern) {
+    std::string profiles;
+    for (std::size_t i = 0; i < pattern.profiles.size(); ++i) profiles += profile_element(pattern.profiles[i], i);
+    return header(pattern) + layer("profiles", "display:none;fill:none;stroke:#000000", profiles) +
+           path_layer(pattern, PathKind::step, "steps", "#c2188f") +
+           path_layer(pattern, PathKind::ridge, "ridges", "#e07b00") +
+           path_layer(pattern, PathKind::groove, "grooves", "#0086b3") + "</svg>\n";
+}
+
+}  // namespace burin

@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Bounds on error and bytes: what is written keeps them; one that cannot be kept is refused with a value that does work."""
+
+import argparse
+import json
+import os
+import re
+
+import harness
+import inputs
+
+
+class Runs:
+    def __init__(self, arguments, verdicts, folder):
+        self.burin, self.verdicts = arguments.burin, verdicts
+        self.map = inputs.write_inputs(folder)["plate.png"]
+        self.asset = os.path.join(folder, "a.glb")
+
+    def convert(self, words):
+        if os.path.exists(self.asset):
+            os.remove(self.asset)
+        return harness.run(self.burin, ["convert", self.map, "-o", self.asset, "--format", "json"] + words)
+
+    def kept(self, words):
+        """Figures of a conversion that must succeed, checked against what the written asset gives."""
+        outcome = self.convert(words)
+        if not self.verdicts.expect(outcome.status == 0, f"{words} are kept", outcome):
+            return None
+        figures = json.loads(outcome.stdout)
+        textures = figures["bytes"]["grid_texture"] + figures["bytes"]["data_texture"]
+        shares = figures["by_class"]
+        self.verdicts.expect(abs(shares["steps"] + shares["lines"] + shares["left"] - 1) < 1e-12, "shares add up to 1")
+        self.verdicts.expect(abs(1 - shares["left"] - figures["explained"]) < 1e-12, "what is left is not explained")
+        check = harness.run(self.burin, ["check", self.asset, "--against", self.map, "--format", "json"])
+        measured = json.loads(check.stdout)
+        for key in ("p999", "rms", "max", "explained"):
+            self.verdicts.expect(measured[key] == figures[key], f"{words}: {key} is that of the file", check)
+        return dict(figures, textures=textures)
+
+    def refused(self, words, pattern):
+        """The value that the refusal of these words names."""
+        outcome = self.convert(words)
+        self.verdicts.expect(outcome.status == 2 and harness.one_line_error(outcome), f"{words} are refused", outcome)
+        self.verdicts.expect(not os.path.exists(self.asset), f"{words}: no file is left", outcome)
+        found = re.search(pattern, outcome.stderr)
+        self.verdicts.expect(found, f"{words}: a value that works is named", outcome)
+        return found.group(1) if found else None
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--burin", required=True)
+    arguments = parser.parse_args()
+    verdicts = harness.Verdicts()
+    with harness.Scratch() as folder:
+        runs = Runs(arguments, verdicts, folder)
+        free = runs.kept([])
+        verdicts.expect(free["by_class"]["steps"] > 0.5 and free["by_class"]["lines"] > 0.005, "both classes explain")
+        verdicts.expect(free["paths_by_kind"] == {"steps": 1, "grooves": 1, "ridges": 0}, f"{free['paths_by_kind']}")
+
+        tight = free["textures"] * 3 // 4
+        small = runs.kept(["--max-bytes", str(tight)])
+        verdicts.expect(small["textures"] <= tight and small["bounds"]["max_bytes"] == tight, f"{tight} bytes are kept")
+        least = runs.refused(["--max-bytes", "1"], r"limit of 1 bytes .* cannot be kept: .*; (\d+) bytes works")
+        verdicts.expect(runs.kept(["--max-bytes", least])["textures"] <= int(least), f"{least} bytes work as promised")
+
+        bound = free["p999"] * 101
+        easy = runs.kept(["--max-error", f"{bound:.6f}"])
+        verdicts.expect(easy["textures"] == free["textures"], "a bound that is kept anyway changes nothing")
+        best = runs.refused(["--max-error", "0.001"], r"error of 0.001 % of range cannot be kept: .*; ([\d.]+) % works")
+        verdicts.expect(runs.kept(["--max-error", best])["p999"] * 100 <= float(best), f"{best} % works as promised")
+    verdicts.finish()
+
+
+if __name__ == "__main__":
+    main()
