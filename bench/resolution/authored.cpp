@@ -4,98 +4,29 @@
 #include <cmath>
 #include <random>
 
+#include "drawing.hpp"
+
 namespace burin::bench {
 namespace {
 
-constexpr double kSide = 512.0;  // the drawing's units per metre
 constexpr double kRelief = 0.5;  // height of every groove and step, in map scale
 
-class Drawing {
-  public:
-    explicit Drawing(int texels, const Walls& walls) {
-        pattern_.size = {1.0, 1.0};
-        pattern_.depth = 0.01;
-        pattern_.base_offset = kRelief * pattern_.depth;
-        pattern_.wrap = Wrap::clamp;
-        const double texel = 1.0 / texels, high = kRelief * pattern_.depth;
-        const double half = 0.5 * walls.groove * texel, ramp = 0.5 * walls.wall * texel;
-        pattern_.profiles.push_back({{{-half - ramp, 0}, {-half + ramp, -high}, {half - ramp, -high}, {half + ramp, 0}}, {}});
-        // Closed paths drawn clockwise on screen have their inside to the right.
-        pattern_.profiles.push_back({{{-ramp, 0}, {ramp, high}}, {}});
+// One groove and one kind of step, for drawings that ask where contours lie and not how high.
+struct Sheet {
+    Drawing drawing;
+    Pen groove, step;
+
+    Sheet(int texels, const Walls& walls)
+        : drawing(texels, walls.wall, 1.0 - kRelief),
+          groove(drawing.groove(walls.groove, kRelief)),
+          step(drawing.step(kRelief)) {}
+
+    void lines(const std::vector<Vec2>& points, bool closed = false, bool raised = false) {
+        drawing.draw(raised ? step : groove, polyline(points, closed));
     }
-
-    void lines(const std::vector<Vec2>& points, bool closed = false, bool step = false) {
-        Path path = begin(closed, step);
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) add_line(path, points[i], points[i + 1]);
-        if (closed) add_line(path, points.back(), points.front());
-        pattern_.paths.push_back(path);
-    }
-
-    // Arc about a centre as quadratics of about 22 degrees each.
-    void arc(Vec2 centre, double radius, double from, double to, bool closed = false, bool step = false) {
-        Path path = begin(closed, step);
-        add_arc(path, centre, radius, from, to, closed);
-        pattern_.paths.push_back(path);
-    }
-
-    // A rounded rectangle turned by `angle`.
-    void slab(Vec2 centre, Vec2 half, double radius, double angle, bool step) {
-        Path path = begin(true, step);
-        const Vec2 along{std::cos(angle), std::sin(angle)}, across = normal_of(along);
-        const auto corner = [&](double x, double y) {
-            return centre + along * (x * (half.x - radius)) + across * (y * (half.y - radius));
-        };
-        const Vec2 corners[4] = {corner(1, -1), corner(1, 1), corner(-1, 1), corner(-1, -1)};
-        for (int i = 0; i < 4; ++i) {
-            const double from = angle + (i - 1) * kQuarter;
-            add_arc(path, corners[i], radius, from, from + kQuarter, false);
-            const Vec2 next = corners[(i + 1) % 4] + Vec2{std::cos(from + kQuarter), std::sin(from + kQuarter)} * radius;
-            const Vec2 last = path.elements.back().p2;
-            Element line;
-            line.p0 = last;
-            line.p2 = i == 3 ? path.elements.front().p0 : next * (1.0 / kSide);
-            path.elements.push_back(line);
-        }
-        pattern_.paths.push_back(path);
-    }
-
-    Pattern take() { return std::move(pattern_); }
-
-    static constexpr double kQuarter = 1.5707963267948966;
-
-  private:
-    Path begin(bool closed, bool step) const {
-        Path path;
-        path.closed = closed;
-        path.profile = step ? 1u : 0u;
-        return path;
-    }
-
-    static void add_line(Path& path, Vec2 a, Vec2 b) {
-        Element e;
-        e.p0 = path.elements.empty() ? a * (1.0 / kSide) : path.elements.back().p2;
-        e.p2 = b * (1.0 / kSide);
-        path.elements.push_back(e);
-    }
-
-    static void add_arc(Path& path, Vec2 centre, double radius, double from, double to, bool closed) {
-        const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / 0.3927)));
-        const double turn = (to - from) / pieces;
-        const auto at = [&](double angle, double r) {
-            return (centre + Vec2{std::cos(angle), std::sin(angle)} * r) * (1.0 / kSide);
-        };
-        for (int i = 0; i < pieces; ++i) {
-            const double angle = from + i * turn;
-            Element e;
-            e.kind = ElementKind::quadratic;
-            e.p0 = path.elements.empty() ? at(angle, radius) : path.elements.back().p2;
-            e.p1 = at(angle + 0.5 * turn, radius / std::cos(0.5 * turn));
-            e.p2 = closed && i + 1 == pieces ? path.elements.front().p0 : at(angle + turn, radius);
-            path.elements.push_back(e);
-        }
-    }
-
-    Pattern pattern_;
+    void curve(Vec2 centre, double radius, double from, double to) { drawing.draw(groove, arc(centre, radius, from, to)); }
+    void ring(Vec2 centre, double radius, bool raised = false) { drawing.draw(raised ? step : groove, circle(centre, radius)); }
+    void plateau(Vec2 centre, Vec2 half, double radius, double angle) { drawing.draw(step, slab(centre, half, radius, angle)); }
 };
 
 Vec2 bent(Vec2 p, double amplitude, const double* phase) {
@@ -133,7 +64,7 @@ void keep_on_line(const Pattern& original, Pattern& moved, std::size_t path, boo
 }  // namespace
 
 Pattern plate(int texels, const Walls& walls) {
-    Drawing d(texels, walls);
+    Sheet d(texels, walls);
     // Axis-aligned walls lie on multiples of 1/40 of a unit, where 40 samples a side integrate them exactly.
     // Long lines that cross, axis-aligned and oblique.
     d.lines({{17.3, 33.45}, {494.6, 33.45}});
@@ -145,31 +76,29 @@ Pattern plate(int texels, const Walls& walls) {
     d.lines({{290.375, 33.45}, {290.375, 121.8}});
     d.lines({{345.2, 33.45}, {318.9, 118.3}});
     d.lines({{lerp({30.6, 171.2}, {243.7, 201.9}, 0.8)}, {219.3, 128.4}});
-    d.arc({420.3, 120.7}, 47.3, -2.6, 2.1);
+    d.curve({420.3, 120.7}, 47.3, -2.6, 2.1);
     d.lines({Vec2{420.3, 120.7} + Vec2{std::cos(0.3), std::sin(0.3)} * 47.3, {501.7, 149.2}});
     // Corners of 130, 90, 60 and 35 degrees.
     d.lines({{270.4, 215.3}, {312.8, 188.6}, {352.1, 211.9}, {352.1, 262.6}, {301.4, 262.6}});
     d.lines({{380.4, 262.1}, {401.7, 204.4}, {431.3, 258.2}, {455.6, 195.1}, {472.8, 261.4}});
     // Arcs of several sizes, two concentric circles, an S that begins and ends straight.
-    d.arc({88.6, 410.2}, 62.4, 0.0, 4.0 * Drawing::kQuarter, true);
-    d.arc({88.6, 410.2}, 36.7, 0.0, 4.0 * Drawing::kQuarter, true);
-    d.arc({191.7, 352.3}, 30.2, 0.4, 3.9);
+    d.ring({88.6, 410.2}, 62.4);
+    d.ring({88.6, 410.2}, 36.7);
+    d.curve({191.7, 352.3}, 30.2, 0.4, 3.9);
     // Plateaus: turned rectangle, round, rounded, one with an acute corner.
     d.lines({{238.3, 331.6}, {297.5, 313.2}, {318.6, 381.7}, {259.4, 400.1}}, true, true);
-    d.arc({389.4, 345.8}, 38.6, 0.0, 4.0 * Drawing::kQuarter, true, true);
-    d.slab({277.3, 455.8}, {73.1, 27.4}, 11.7, 0.0, true);
+    d.ring({389.4, 345.8}, 38.6, true);
+    d.plateau({277.3, 455.8}, {73.1, 27.4}, 11.7, 0.0);
     d.lines({{383.6, 487.2}, {421.9, 409.7}, {496.3, 441.8}, {448.2, 460.4}}, true, true);
     // A groove on a plateau.
-    d.lines({{223.4, 461.3}, {326.8, 447.9}});
-    Pattern pattern = d.take();
-    pattern.paths.back().level = kRelief * pattern.depth;
-    return pattern;
+    d.drawing.draw(d.drawing.on(d.groove, kRelief), polyline({{223.4, 461.3}, {326.8, 447.9}}));
+    return d.drawing.take();
 }
 
 Pattern random_plate(int texels, const Walls& walls, unsigned seed) {
     std::mt19937 random(seed);
     const auto in = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
-    Drawing d(texels, walls);
+    Sheet d(texels, walls);
     // Four by four fields of 120 units, one motif each.
     for (int row = 0; row < 4; ++row) {
         for (int column = 0; column < 4; ++column) {
@@ -182,15 +111,15 @@ Pattern random_plate(int texels, const Walls& walls, unsigned seed) {
                 case 0: d.lines({at(0, 45), at(3.14159265, 45)}), d.lines({at(in(0.35, 2.8), 42), at(in(-2.8, -0.35), 42)}); break;
                 case 1: d.lines({at(0, 45), at(3.14159265, 45)}), d.lines({c, at(in(0.7, 2.4), 44)}); break;
                 case 2: d.lines({at(0, 44), at(in(1.7, 2.0), in(4, 12)), at(in(3.2, 4.2), 44)}); break;
-                case 3: d.arc(c, in(22, 44), angle, angle + in(2, 5)); break;
-                case 4: d.arc(c, in(20, 42), 0.0, 6.283185307179586, true, true); break;
-                case 5: d.slab(c, {in(25, 40), in(18, 25)}, in(6, 14), in(-0.7, 0.7), true); break;
+                case 3: d.curve(c, in(22, 44), angle, angle + in(2, 5)); break;
+                case 4: d.ring(c, in(20, 42), true); break;
+                case 5: d.plateau(c, {in(25, 40), in(18, 25)}, in(6, 14), in(-0.7, 0.7)); break;
                 case 6: d.lines({at(0, 44), at(1.2, 40), at(2.9, 42), at(4.4, 38)}, true, true); break;
-                default: d.arc(c, in(28, 44), angle, angle + 4.5), d.arc(c, in(14, 18), angle, angle + 3.0); break;
+                default: d.curve(c, in(28, 44), angle, angle + 4.5), d.curve(c, in(14, 18), angle, angle + 3.0); break;
             }
         }
     }
-    return d.take();
+    return d.drawing.take();
 }
 
 Pattern disturbed(const Pattern& pattern, int texels, double texels_off, double share, unsigned seed) {
@@ -221,6 +150,20 @@ Pattern disturbed(const Pattern& pattern, int texels, double texels_off, double 
         keep_on_line(pattern, out, p, false);
     }
     return out;
+}
+
+std::vector<double> half_heights(const Pattern& pattern) {
+    std::vector<double> halves;
+    for (const Path& path : pattern.paths) {
+        double extreme = 0.0;
+        for (const ProfilePoint& point : pattern.profiles[path.profile].points)
+            if (std::abs(point.h) > std::abs(extreme)) extreme = point.h;
+        const double half = 1.0 + (path.level + 0.5 * extreme - pattern.base_offset) / pattern.depth;
+        const auto near = [&](double other) { return std::abs(other - half) < 1e-6; };
+        if (std::none_of(halves.begin(), halves.end(), near)) halves.push_back(half);
+    }
+    std::sort(halves.begin(), halves.end());
+    return halves;
 }
 
 }  // namespace burin::bench

@@ -1,7 +1,6 @@
 // Patterns written as vectors for the question of this bench, and how to disturb them.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <burin/pattern.hpp>
@@ -21,7 +20,8 @@ Pattern plate(int texels, const Walls& walls);
 // The same kinds at random places.
 Pattern random_plate(int texels, const Walls& walls, unsigned seed);
 
-inline const std::vector<double> kHalfHeights{0.25, 0.75};
+// The heights in map scale at which half of the pattern's walls stand, each once, lowest first.
+std::vector<double> half_heights(const Pattern& pattern);
 
 // Bends the plane smoothly by up to `texels_off` texels, with ends on lines staying on them, and makes profiles wider
 // and deeper by up to `share`: a start as a tracer might give it.

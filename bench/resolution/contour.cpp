@@ -85,11 +85,11 @@ std::vector<LineDistance::Spot> spots_of(const std::vector<Measured>& all) {
 
 }  // namespace
 
-void add_level_lines(const Image& part, int x0, int y0, double level, double scale, std::vector<Segment>& out) {
-    for (int y = 0; y + 1 < part.height; ++y) {
-        for (int x = 0; x + 1 < part.width; ++x) {
-            const double v[4] = {part.at(x, y) - level, part.at(x + 1, y) - level, part.at(x + 1, y + 1) - level,
-                                 part.at(x, y + 1) - level};
+void add_level_lines(const Image& surface, double level, double scale, std::vector<Segment>& out) {
+    for (int y = 0; y + 1 < surface.height; ++y) {
+        for (int x = 0; x + 1 < surface.width; ++x) {
+            const double v[4] = {surface.at(x, y) - level, surface.at(x + 1, y) - level, surface.at(x + 1, y + 1) - level,
+                                 surface.at(x, y + 1) - level};
             const int above = (v[0] > 0) + (v[1] > 0) + (v[2] > 0) + (v[3] > 0);
             if (above == 0 || above == 4) continue;
             static const int kCorner[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
@@ -99,8 +99,8 @@ void add_level_lines(const Image& part, int x0, int y0, double level, double sca
                 const double a = v[k], b = v[(k + 1) % 4];
                 if ((a > 0) == (b > 0)) continue;
                 const double t = a / (a - b);
-                crossing[count++] = {(x0 + x + 0.5 + kCorner[k][0] + t * (kCorner[k + 1][0] - kCorner[k][0])) / scale,
-                                     (y0 + y + 0.5 + kCorner[k][1] + t * (kCorner[k + 1][1] - kCorner[k][1])) / scale};
+                crossing[count++] = {(x + 0.5 + kCorner[k][0] + t * (kCorner[k + 1][0] - kCorner[k][0])) / scale,
+                                     (y + 0.5 + kCorner[k][1] + t * (kCorner[k + 1][1] - kCorner[k][1])) / scale};
             }
             out.push_back({crossing[0], crossing[1]});
             if (count == 4) out.push_back({crossing[2], crossing[3]});

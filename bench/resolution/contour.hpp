@@ -13,9 +13,8 @@ struct Segment {
     Vec2 a, b;
 };
 
-// Level lines of a surface given by samples on a fine grid, marching squares. Fine texel (0, 0) of `part` is texel
-// (x0, y0) of the whole; points come in units of `scale` fine texels.
-void add_level_lines(const Image& part, int x0, int y0, double level, double scale, std::vector<Segment>& out);
+// Level lines of a surface given by samples on a fine grid, marching squares; points in units of `scale` samples.
+void add_level_lines(const Image& surface, double level, double scale, std::vector<Segment>& out);
 
 struct LineDistance {
     double rms = 0.0, p999 = 0.0, max = 0.0;

@@ -3,23 +3,20 @@
 //
 //     resolution [--start disturbed|traced|vectorized] [--patterns plate|random|all] [--maps 512,1024] [--bits 16]
 //                [--seeds N] [--zoom 8192] [--spots N] [--walls 0..3]
-//                [--picture FILE.ppm:X:Y:SIDE]
+//                [--picture FILE.png:X:Y:SIDE]
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
-#include <burin/fit.hpp>
 #include <burin/refine.hpp>
 
 #include "authored.hpp"
 #include "contour.hpp"
 #include "level_lines.hpp"
+#include "picture.hpp"
 #include "start.hpp"
 
 namespace burin::bench {
@@ -51,62 +48,28 @@ double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Chords of the paths, in map texels.
-std::vector<Segment> chords_of(const Pattern& pattern, int texels) {
-    constexpr int kChords = 8;
-    std::vector<Segment> chords;
-    for (const Path& path : pattern.paths)
-        for (const Element& e : path.elements)
-            for (int k = 0; k < kChords; ++k)
-                chords.push_back({point_at(e, double(k) / kChords) * (texels / pattern.size.x),
-                                  point_at(e, (k + 1.0) / kChords) * (texels / pattern.size.x)});
-    return chords;
-}
-
-// The map enlarged, with the true lines green, ours red, and our paths blue.
-void write_picture(const std::string& request, const Image& map, const std::vector<Segment>& truth,
-                   const std::vector<Segment>& ours, const std::vector<Segment>& paths) {
-    constexpr int kEnlarge = 16;
+// FILE.png:X:Y:SIDE
+void draw_picture(const std::string& request, const Image& map, const std::vector<Segment>& truth,
+                  const std::vector<Segment>& ours, const std::vector<Segment>& paths) {
     const std::size_t c3 = request.rfind(':'), c2 = request.rfind(':', c3 - 1), c1 = request.rfind(':', c2 - 1);
-    const int x0 = std::atoi(request.substr(c1 + 1).c_str()), y0 = std::atoi(request.substr(c2 + 1).c_str());
-    const int side = std::atoi(request.substr(c3 + 1).c_str()), pixels = side * kEnlarge;
-    std::vector<unsigned char> rgb(static_cast<std::size_t>(pixels) * pixels * 3);
-    for (int y = 0; y < pixels; ++y)
-        for (int x = 0; x < pixels; ++x)
-            for (int c = 0; c < 3; ++c)
-                rgb[(static_cast<std::size_t>(y) * pixels + x) * 3 + c] = static_cast<unsigned char>(
-                    60.0f + 180.0f * map.at(std::min(x0 + x / kEnlarge, map.width - 1), std::min(y0 + y / kEnlarge, map.height - 1)));
-    const auto draw = [&](const std::vector<Segment>& lines, int r, int g, int b) {
-        for (const Segment& s : lines) {
-            const int steps = 1 + static_cast<int>(length(s.b - s.a) * kEnlarge);
-            for (int k = 0; k <= steps; ++k) {
-                const Vec2 p = lerp(s.a, s.b, double(k) / steps);
-                const int x = static_cast<int>((p.x - x0) * kEnlarge), y = static_cast<int>((p.y - y0) * kEnlarge);
-                if (x < 0 || y < 0 || x >= pixels || y >= pixels) continue;
-                unsigned char* t = &rgb[(static_cast<std::size_t>(y) * pixels + x) * 3];
-                t[0] = static_cast<unsigned char>(r), t[1] = static_cast<unsigned char>(g), t[2] = static_cast<unsigned char>(b);
-            }
-        }
-    };
-    draw(truth, 0, 160, 0);
-    draw(paths, 0, 60, 255);
-    draw(ours, 220, 0, 0);
-    std::ofstream file(request.substr(0, c1), std::ios::binary);
-    file << "P6\n" << pixels << " " << pixels << "\n255\n";
-    file.write(reinterpret_cast<const char*>(rgb.data()), static_cast<std::streamsize>(rgb.size()));
+    const Vec2 corner{std::atof(request.substr(c1 + 1).c_str()), std::atof(request.substr(c2 + 1).c_str())};
+    write_close_up(request.substr(0, c1), map, corner, std::atoi(request.substr(c3 + 1).c_str()), truth, ours, paths);
 }
 
 Row measure(const Case& c, const Options& options, unsigned seed) {
     const Image map = map_of(c.pattern, c.texels, options.bits);
     Row row;
-    const double begin = now();
     Pattern ours;
-    const std::vector<Segment> truth = lines_of(c.pattern, options.zoom, c.texels);
+    const std::vector<double> heights = half_heights(c.pattern);
+    const auto lines = [&](const Pattern& pattern) { return lines_of(pattern, heights, options.zoom, c.texels); };
+    const std::vector<Segment> truth = lines(c.pattern);
     if (options.start == "vectorized" || options.start == "traced") {
+        const double before = now();
         ours = vectorized(map, c.pattern, options.start == "vectorized");
+        row.seconds = now() - before;
     } else {
         ours = disturbed(c.pattern, c.texels, 0.3, 0.05, seed);
-        row.start = distance_between(truth, lines_of(ours, options.zoom, c.texels)).rms;
+        row.start = distance_between(truth, lines(ours)).rms;
         const double before = now();
         const Result<RefineReport> report = refine_pattern(ours, map);
         row.seconds = now() - before;
@@ -116,15 +79,14 @@ Row measure(const Case& c, const Options& options, unsigned seed) {
         }
         row.rms = report->rms_after;
     }
-    if (options.start != "disturbed") row.seconds = now() - begin;
-    const std::vector<Segment> our_lines = lines_of(ours, options.zoom, c.texels);
+    const std::vector<Segment> our_lines = lines(ours);
     const LineDistance distance = distance_between(truth, our_lines);
-    const LineDistance bilinear = distance_between(truth, lines_of(map, options.zoom));
+    const LineDistance bilinear = distance_between(truth, lines_of(zoomed(map, options.zoom, c.pattern.wrap), heights, c.texels));
     row.ours = distance.rms, row.ours999 = distance.p999, row.ours_max = distance.max, row.lost = distance.lost;
     row.worst = distance.worst;
     row.spots = distance.spots;
     row.bilinear = bilinear.rms, row.bilinear999 = bilinear.p999, row.bilinear_lost = bilinear.lost;
-    if (!options.picture.empty()) write_picture(options.picture, map, truth, our_lines, chords_of(ours, c.texels));
+    if (!options.picture.empty()) draw_picture(options.picture, map, truth, our_lines, chords_of(ours, c.texels));
     return row;
 }
 

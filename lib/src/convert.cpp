@@ -188,6 +188,7 @@ struct Source {
     const HeightMap& map;
     std::shared_ptr<const HeightMap> separated;  // null: the map itself
     TracedMap traced;
+    bool shading = true;  // see VectorizeOptions
     const HeightMap& detail() const { return separated ? *separated : map; }
 };
 
@@ -207,6 +208,7 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
     const bool asked = options.max_texture_bytes > 0;
     const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
     VectorizeOptions vectorize = vectorize_options(options);
+    vectorize.shading = source.shading;
     for (int attempt = 1;; ++attempt) {
         if (!clock.begin("vectorize")) return stopped();
         auto fitted = fit_traced_map(source.traced, source.detail(), vectorize, progress);
@@ -227,6 +229,21 @@ struct Start {
     Candidate candidate;
 };
 
+// With steps along soft ground, or without where they explain too little for what they cost.
+Result<Start> start_from(Source source, const ConvertOptions& options, std::size_t budget, const Progress& progress,
+                         StageClock& clock) {
+    constexpr double kMustGain = 0.005;
+    auto shaded = fit_within(source, options, budget, progress, clock);
+    if (!shaded) return shaded.error();
+    if (!shaded->traced.shaded) return Start{std::move(source), std::move(*shaded)};
+    source.shading = false;
+    auto plain = fit_within(source, options, budget, progress, clock);
+    if (!plain) return plain.error();
+    source.shading = shaded->stats.explained > plain->stats.explained + kMustGain;
+    Candidate& better = source.shading ? *shaded : *plain;
+    return Start{std::move(source), std::move(better)};
+}
+
 // The map as it is, or without its soft ground where that explains more: whether a ramp is ground or the side of a wide
 // bevel shows when its paths are drawn.
 Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
@@ -234,22 +251,21 @@ Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, st
     constexpr double kLeastDeviation = 0.004, kMustGain = 0.002;
     auto source = trace_source(map, nullptr, options, progress, clock);
     if (!source) return source.error();
-    auto candidate = fit_within(*source, options, budget, progress, clock);
-    if (!candidate) return candidate.error();
+    auto start = start_from(std::move(*source), options, budget, progress, clock);
+    if (!start) return start.error();
     if (!clock.begin("vectorize")) return stopped();
     // Only a bound on the error asks for closer paths later, and what was traced takes room.
-    if (options.max_error <= 0.0) source->traced = {};
+    if (options.max_error <= 0.0) start->source.traced = {};
     auto separated = separate_ground(map, vectorize_options(options));
     if (!separated) return separated.error();
-    if (separated->deviation < kLeastDeviation) return Start{std::move(*source), std::move(*candidate)};
+    if (separated->deviation < kLeastDeviation) return start;
     auto detail = std::make_shared<const HeightMap>(std::move(separated->detail));
     auto other_source = trace_source(map, std::move(detail), options, progress, clock);
     if (!other_source) return other_source.error();
-    auto other = fit_within(*other_source, options, budget, progress, clock);
+    auto other = start_from(std::move(*other_source), options, budget, progress, clock);
     if (!other) return other.error();
-    if (other->stats.explained < candidate->stats.explained + kMustGain)
-        return Start{std::move(*source), std::move(*candidate)};
-    return Start{std::move(*other_source), std::move(*other)};
+    const bool gains = other->candidate.stats.explained >= start->candidate.stats.explained + kMustGain;
+    return gains ? std::move(other) : std::move(start);
 }
 
 // A step of the refinement looks at every texel within reach of every element: wide profiles on long paths would take

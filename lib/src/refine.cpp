@@ -35,14 +35,9 @@ constexpr double kStrain = 0.02;             // texels, root mean square: an arc
 constexpr double kShortestSplit = 6.0;       // texels
 constexpr double kTorn = 0.1;                // map scale
 // A texel's model is as exact as this share of what it is off by, not more: doubt about a part of it is then cheap.
-constexpr double kPrecision = 0.2;
-// The iteration ends when a step gains less than this share of the cost, or when so many in a row were refused: the rough
-// model is not worth more.
-constexpr double kRoughlySettled = 3e-3;
-constexpr double kSettled = 1e-3;
-constexpr int kMostRefused = 6;
+constexpr double kPrecision = 0.5;
+constexpr int kMostRefused = 6;    // steps in a row
 constexpr int kHoldRounds = 3;
-constexpr int kExactSteps = 3;     // most of them: they start where the rough model has led
 
 // The pattern in texels of the map's width, heights in map scale: white 1, black 0.
 Pattern to_texels(const Pattern& pattern, double texel) {
@@ -91,15 +86,26 @@ double deviation_of(const std::vector<Residual>& residuals, bool on_walls = true
 double threshold_of(double deviation) { return std::max(kLeastThreshold, kThresholdInDeviations * deviation); }
 
 
-// The rough model asks half of the texels where the map bends, and combines the features' means over a whole texel: off
-// only within a texel of where features meet, but many times faster.
-enum class Model { rough, exact };
+// How a pattern is compared with the map. What is rough is only so within a texel of where features meet, but many times
+// faster.
+struct Model {
+    bool sparse = false;     // half of the texels where the map bends
+    int divisions = kWhole;  // see ForwardOptions
+    double precision = 0.0;  // map scale
+    int steps = 0;           // most of them
+    double settled = 0.0;    // the iteration ends when a step gains less than this share of the cost
+};
+constexpr Model kRough{true, kWhole, 0.0, 12, 3e-3};
+constexpr Model kClose{false, 2, 0.05, 12, 1e-2};
+// The last steps: off by not more than a share of what the map is off by.
+Model exact_model(double deviation) { return {false, kFineDivisions, kPrecision * deviation, 3, 1e-3}; }
 
 struct State {
     Pattern pattern;
     Parameters parameters;
     std::vector<ElementUnknowns> elements;
     Prediction prediction;
+    std::vector<double> damping;         // by unknown
     std::vector<std::uint8_t> resolves;  // by path: whether anything is left of it once it is resolved
 };
 
@@ -119,75 +125,74 @@ double cost_of(const State& state, double deviation) {
 class Refinement {
   public:
     Refinement(const Image& map, Vec2 side, const RefineOptions& options)
-        : map_(map), side_(side), options_(options), rough_(sample_map(map, true)), exact_(sample_map(map, false)) {}
+        : map_(map), side_(side), options_(options), sparse_(sample_map(map, true)), dense_(sample_map(map, false)) {}
 
     // The model's map and its equations, at a state's pattern.
-    void predict(State& state, const ResolvedPattern& resolved, Model model, double threshold, double precision) const {
+    void predict(State& state, const ResolvedPattern& resolved, const Model& model, double threshold) const {
         state.elements = state.parameters.of_elements(state.pattern, resolved);
-        ForwardOptions forward = forward_options(model, precision);
+        ForwardOptions forward = forward_options(model);
         forward.robust = threshold;
         state.prediction = Forward(resolved, map_, side_, sampling(model), options_.threads).predict(state.elements, forward);
         state.resolves = resolving_paths(state.pattern, resolved);
     }
 
     // The model's map alone.
-    Result<Prediction> look(const Pattern& pattern, Model model, double precision = 0.0) const {
+    Result<Prediction> look(const Pattern& pattern, const Model& model) const {
         const Result<ResolvedPattern> resolved = resolve_pattern(pattern, resolve_options());
         if (!resolved) return resolved.error();
-        ForwardOptions forward = forward_options(model, precision);
+        ForwardOptions forward = forward_options(model);
         forward.equations = false;
         return Forward(*resolved, map_, side_, sampling(model), options_.threads).predict({}, forward);
     }
 
     // Damped Gauss-Newton steps from `start` until nothing is gained.
-    Result<State> run(const Pattern& start, Model model, double precision, RefineReport& report) const {
+    Result<State> run(const Pattern& start, const Model& model, RefineReport& report) const {
         Pattern tied = start;
         Parameters parameters(tied, options_);
-        State best{std::move(tied), std::move(parameters), {}, {}, {}};
+        const std::vector<double> damping(parameters.count(), kFirstDamping);
+        State best{std::move(tied), std::move(parameters), {}, {}, damping, {}};
         const Result<ResolvedPattern> begun = resolve_pattern(best.pattern, resolve_options());
         if (!begun) return begun.error();
-        predict(best, *begun, model, 1e30, precision);
+        predict(best, *begun, model, 1e30);
         report.unknowns = best.parameters.count();
-        const int most = model == Model::exact ? std::min(kExactSteps, options_.iterations) : options_.iterations;
-        double damping = kFirstDamping;
-        const double settled = model == Model::exact ? kSettled : kRoughlySettled;
+        const int most = std::min(model.steps, options_.iterations);
         int refused = 0;  // steps in a row
         for (int i = 0; i < most && refused < kMostRefused && report.unknowns > 0; ++i) {
             const double deviation = deviation_of(best.prediction.residuals);
             NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
             equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
             ++report.iterations;
-            State next{best.pattern, best.parameters, {}, {}, {}};
-            const Result<ResolvedPattern> resolved = take_step(best, equations, damping, next);
-            if (resolved) predict(next, *resolved, model, threshold_of(deviation), precision);
+            State next{best.pattern, best.parameters, {}, {}, best.damping, {}};
+            const Result<ResolvedPattern> resolved = take_step(best, equations, next);
+            if (resolved) predict(next, *resolved, model, threshold_of(deviation));
             const double before = cost_of(best, deviation);
             const double after = resolved ? cost_of(next, deviation) : 1e300;
+            if (!resolved) return best;
+            adapt_damping(best, next, threshold_of(deviation), refused > 0, after < before);
             if (after >= before) {
-                damping = std::max(10.0 * damping, 1e-2);
                 ++refused;
+                best.damping = next.damping;
                 continue;
             }
             best = std::move(next);
-            // What was too little damping a step ago is so still: a refused step costs as much as one that is taken.
-            if (refused == 0) damping = std::max(0.1 * damping, 1e-6);
             refused = 0;
-            if (before - after < settled * before) break;
+            if (before - after < model.settled * before) break;
         }
         return best;
     }
 
     // The pattern with ends where the map shows them; each stays that fits no better around where it moved.
     Pattern with_settled_ends(const Pattern& pattern) const {
-        const Result<Prediction> before = look(pattern, Model::rough);
+        const Result<Prediction> before = look(pattern, kRough);
         if (!before) return pattern;
         std::vector<std::uint8_t> held;
         for (int round = 0; round < kSettleRounds; ++round) {
             Pattern settled = pattern;
             const std::vector<MovedEnd> moved = settle_ends(settled, map_, side_, held);
             if (moved.empty()) return pattern;
-            const Result<Prediction> after = look(settled, Model::rough);
+            const Result<Prediction> after = look(settled, kRough);
             if (!after) return pattern;
-            const std::vector<float> gains = gains_of(*before, *after);
+            const std::vector<float> gains = gains_of(*before, *after, kRoughThreshold);
             bool any_held = false;
             for (const MovedEnd& end : moved) {
                 if (sum_within(gains, end.window) > 0.0) continue;
@@ -220,13 +225,30 @@ class Refinement {
         return resolves;
     }
 
+    // Unknowns that made their texels worse are damped more, the others less: a place where the model leaps does not keep
+    // all the rest from moving.
+    void adapt_damping(const State& from, State& next, double threshold, bool refused_before, bool accepted) const {
+        const std::vector<float> gains = gains_of(from.prediction, next.prediction, threshold);
+        std::vector<double> of_elements(from.elements.size(), 0.0), of_unknowns(next.damping.size(), 0.0);
+        for (const Residual& r : from.prediction.residuals)
+            if (r.element >= 0) of_elements[r.element] += gains[r.texel];
+        for (std::size_t e = 0; e < of_elements.size(); ++e)
+            for (const int unknown : from.elements[e].unknowns) of_unknowns[unknown] += of_elements[e];
+        for (std::size_t i = 0; i < of_unknowns.size(); ++i) {
+            double& damping = next.damping[i];
+            if (of_unknowns[i] < 0.0) damping = std::max(10.0 * damping, 1e-2);
+            // What was too little damping a step ago is so still.
+            if (of_unknowns[i] >= 0.0 && accepted && !refused_before) damping = std::max(0.1 * damping, 1e-6);
+        }
+    }
+
     // Moves `next` on from `from`. Paths that would then resolve no more, since a step path of theirs crosses another, stay
     // where they are from now on: shorter steps of everything else would not help them.
-    Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, double damping, State& next) const {
+    Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, State& next) const {
         for (int round = 0;; ++round) {
             next.pattern = from.pattern;
             next.parameters = from.parameters;
-            next.parameters.apply(equations.step(damping, from.parameters.held()), options_.max_shift_texels, next.pattern);
+            next.parameters.apply(equations.step(from.damping, from.parameters.held()), options_.max_shift_texels, next.pattern);
             Result<ResolvedPattern> resolved = resolve_pattern(next.pattern, resolve_options());
             if (!resolved || round == kHoldRounds) return resolved;
             const std::vector<std::uint8_t> resolves = resolving_paths(next.pattern, *resolved);
@@ -242,15 +264,15 @@ class Refinement {
 
     // Whether a pattern's misfit is below a share of another's.
     bool fits(const Pattern& pattern, double share, const Pattern& other) const {
-        const Result<Prediction> before = look(other, Model::rough), after = look(pattern, Model::rough);
+        const Result<Prediction> before = look(other, kRough), after = look(pattern, kRough);
         return before && after && misfit(*after, kRoughThreshold) < share * misfit(*before, kRoughThreshold);
     }
 
     // How much less the second prediction is off at each texel.
-    std::vector<float> gains_of(const Prediction& before, const Prediction& after) const {
+    std::vector<float> gains_of(const Prediction& before, const Prediction& after, double threshold) const {
         std::vector<float> gains(map_.texels.size(), 0.0f);
         const auto add = [&](const std::vector<Residual>& residuals, double sign) {
-            for (const Residual& r : residuals) gains[r.texel] += static_cast<float>(sign * robust_cost(r, kRoughThreshold));
+            for (const Residual& r : residuals) gains[r.texel] += static_cast<float>(sign * robust_cost(r, threshold));
         };
         add(before.residuals, 1.0), add(before.far, 1.0);
         add(after.residuals, -1.0), add(after.far, -1.0);
@@ -273,20 +295,20 @@ class Refinement {
         return resolve;
     }
 
-    ForwardOptions forward_options(Model model, double precision) const {
+    ForwardOptions forward_options(const Model& model) const {
         ForwardOptions forward;
-        forward.divisions = model == Model::rough ? kWhole : kFineDivisions;
-        forward.precision = precision;
+        forward.divisions = model.divisions;
+        forward.precision = model.precision;
         forward.threads = options_.threads;
         return forward;
     }
 
-    const Sampling& sampling(Model model) const { return model == Model::rough ? rough_ : exact_; }
+    const Sampling& sampling(const Model& model) const { return model.sparse ? sparse_ : dense_; }
 
     const Image& map_;
     const Vec2 side_;
     const RefineOptions& options_;
-    const Sampling rough_, exact_;
+    const Sampling sparse_, dense_;
 };
 
 // What would be indexed or divided by blindly. The rest is for `resolve_pattern` to leave out.
@@ -347,10 +369,10 @@ std::vector<ElementIndex> strained_quadratics(const State& state) {
 }
 
 // Refines `candidate` and puts it in the place of `best` when its misfit is at most `share` of the best one's.
-bool keep_better(const Refinement& refinement, const Pattern& candidate, double share, State& best,
+bool keep_better(const Refinement& refinement, const Model& model, const Pattern& candidate, double share, State& best,
                  RefineReport& report) {
     RefineReport trial = report;
-    Result<State> state = refinement.run(candidate, Model::rough, 0.0, trial);
+    Result<State> state = refinement.run(candidate, model, trial);
     if (!state) return false;
     const double threshold = threshold_of(deviation_of(best.prediction.residuals));
     if (misfit(state->prediction, threshold) > share * misfit(best.prediction, threshold)) return false;
@@ -359,24 +381,29 @@ bool keep_better(const Refinement& refinement, const Pattern& candidate, double 
     return true;
 }
 
-// First with the profiles as they came, symmetric ones made so; then, where it costs little, with fewer points: a
-// section measured through the blur of the texels has rounded corners, which the first stage has straightened.
+// With fewer points where that costs little: a section measured through the blur of the texels has rounded corners, which
+// the fit before has straightened.
+void keep_simpler(const Refinement& refinement, const Model& model, State& best, RefineReport& report) {
+    Pattern simpler = best.pattern;
+    if (simplify_profiles(simpler)) keep_better(refinement, model, simpler, kSimplerMayCost, best, report);
+}
+
+// First with the profiles as they came, symmetric ones made so; then simpler ones, and more elements where they are too few.
 Result<State> refine_roughly(const Refinement& refinement, const Pattern& start, const RefineOptions& options,
                              RefineReport& report) {
     Pattern first = start;
     if (options.profiles) make_symmetric(first);
     if (options.elements) first = refinement.with_tidy_tails(refinement.with_curves(first));
     if (options.ends) first = refinement.with_settled_ends(first);
-    Result<State> best = refinement.run(first, Model::rough, 0.0, report);
+    Result<State> best = refinement.run(first, kRough, report);
     if (!best) return best;
-    Pattern simpler = best->pattern;
-    if (options.profiles && simplify_profiles(simpler)) keep_better(refinement, simpler, kSimplerMayCost, *best, report);
+    if (options.profiles) keep_simpler(refinement, kRough, *best, report);
     for (int round = 0; round < kSplitRounds && options.positions && options.elements; ++round) {
         const std::vector<ElementIndex> strained = strained_quadratics(*best);
         if (strained.empty()) break;
         Pattern split = best->pattern;
         split_quadratics(split, strained);
-        if (!keep_better(refinement, split, kSplitMustGain, *best, report)) break;
+        if (!keep_better(refinement, kRough, split, kSplitMustGain, *best, report)) break;
     }
     return best;
 }
@@ -394,10 +421,13 @@ Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const Re
     RefineReport report;
     const Result<State> rough = refine_roughly(refinement, start, options, report);
     if (!rough) return rough.error();
-    const double precision = kPrecision * deviation_of(rough->prediction.residuals);
-    const Result<State> best = refinement.run(rough->pattern, Model::exact, precision, report);
+    Result<State> close = refinement.run(rough->pattern, kClose, report);
+    if (!close) return close.error();
+    if (options.profiles) keep_simpler(refinement, kClose, *close, report);
+    const Model exact = exact_model(deviation_of(close->prediction.residuals));
+    const Result<State> best = refinement.run(close->pattern, exact, report);
     if (!best) return best.error();
-    const Result<Prediction> before = refinement.look(start, Model::exact, precision);
+    const Result<Prediction> before = refinement.look(start, exact);
     if (!before) return before.error();
     report.rms_before = root_mean_square(before->residuals);
     report.rms_after = root_mean_square(best->prediction.residuals);

@@ -89,12 +89,12 @@ void NormalEquations::multiply(const std::vector<double>& x, const std::vector<d
     }
 }
 
-std::vector<double> NormalEquations::step(double damping, const std::vector<std::uint8_t>& held) const {
+std::vector<double> NormalEquations::step(const std::vector<double>& damping, const std::vector<std::uint8_t>& held) const {
     const std::size_t count = diagonal_.size();
     // A floor keeps what the map hardly shows from being thrown far.
     std::vector<double> damped(count), inverse(count, 0.0);
     for (std::size_t i = 0; i < count; ++i) {
-        damped[i] = damping * diagonal_[i] + springs_[i] + kFloor;
+        damped[i] = damping[i] * diagonal_[i] + springs_[i] + kFloor;
         if (diagonal_[i] > 0.0 && !held[i]) inverse[i] = 1.0 / (diagonal_[i] + damped[i]);
     }
     std::vector<double> x(count, 0.0), r(count), z(count), d(count), q(count);

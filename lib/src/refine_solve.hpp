@@ -17,9 +17,9 @@ class NormalEquations {
     // Adds springs: weight_i / 2 * (moved_i + step_i)^2.
     void add_springs(const std::vector<double>& weight, double factor, const std::vector<double>& moved);
 
-    // Step that minimizes the quadratic model plus damping * diagonal. Unknowns that are held, or that nothing depends on,
+    // Step that minimizes the quadratic model plus each unknown's damping * diagonal. Unknowns that are held, or that nothing depends on,
     // stay.
-    std::vector<double> step(double damping, const std::vector<std::uint8_t>& held) const;
+    std::vector<double> step(const std::vector<double>& damping, const std::vector<std::uint8_t>& held) const;
 
   private:
     void multiply(const std::vector<double>& x, const std::vector<double>& damped, std::vector<double>& out) const;

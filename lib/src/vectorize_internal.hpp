@@ -214,7 +214,11 @@ Regions segment_regions(const Image& map, const Lattice& lattice, double noise, 
                         const std::vector<std::uint8_t>& flat);
 void measure_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
                      const std::vector<std::uint32_t>& label, Regions& regions);
-void merge_regions(double noise, double least_energy, Regions& regions);
+struct MergeOptions {
+    double noise = 0.0, least_energy = 0.0;
+    bool shading = true;  // levels that soft ground passes stay borders
+};
+void merge_regions(const MergeOptions& options, Regions& regions);
 
 // The step contours between regions of the map, but for `changed`.
 std::vector<Chain> trace_steps(const Image& map, const Changed& changed, const Lattice& lattice, const Regions& regions);

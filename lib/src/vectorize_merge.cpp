@@ -99,14 +99,15 @@ struct Weak {
 
 // Borders that are no edge: soft ground only passes a level there, the map does not jump, or the difference is within the grain, or one of both regions is
 // too small to be worth a path. The most alike first.
-std::vector<Weak> find_weak(const Regions& regions, double least_jump, double least_energy) {
+std::vector<Weak> find_weak(const Regions& regions, const MergeOptions& options) {
+    const double least_jump = std::max(4.0 * options.noise, 0.02);
     std::vector<Weak> weak;
     for (const auto& [pair, border] : regions.borders) {
         const double gap = regions.level[pair.second] - regions.level[pair.first];
         const double jump = border.jump(gap);
         const double small = std::min(regions.area[pair.first], regions.area[pair.second]);
         const double energy = small * gap * gap;
-        if ((border.is_ramp() && std::fabs(gap) < 3.0 * least_jump) || jump < least_jump || jump < 0.3 * std::fabs(gap) || energy < least_energy)
+        if ((!options.shading && border.is_ramp()) || jump < least_jump || jump < 0.3 * std::fabs(gap) || energy < options.least_energy)
             weak.push_back({std::fabs(gap), pair.first, pair.second});
     }
     std::stable_sort(weak.begin(), weak.end(), [](const Weak& p, const Weak& q) { return p.strength < q.strength; });
@@ -138,8 +139,8 @@ void join_regions(Regions& regions, std::vector<std::uint32_t>& parent) {
     settle_regions(regions);
 }
 
-bool merge_weak(Regions& regions, double least_jump, double least_energy) {
-    const std::vector<Weak> weak = find_weak(regions, least_jump, least_energy);
+bool merge_weak(Regions& regions, const MergeOptions& options) {
+    const std::vector<Weak> weak = find_weak(regions, options);
     if (weak.empty()) return false;
     std::vector<std::uint32_t> parent(regions.level.size());
     std::iota(parent.begin(), parent.end(), 0u);
@@ -181,10 +182,9 @@ void measure_regions(const Image& map, const Lattice& lattice, const std::vector
     settle_regions(regions);
 }
 
-void merge_regions(double noise, double least_energy, Regions& regions) {
-    const double least_jump = std::max(4.0 * noise, 0.02);
+void merge_regions(const MergeOptions& options, Regions& regions) {
     for (int round = 0; round < 200; ++round)
-        if (!merge_weak(regions, least_jump, least_energy)) break;
+        if (!merge_weak(regions, options)) break;
 }
 
 }  // namespace burin::vectorizing

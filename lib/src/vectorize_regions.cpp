@@ -254,7 +254,7 @@ Regions segment_regions(const Image& map, const Lattice& lattice, double noise, 
     std::vector<std::uint32_t> label =
         grow_regions(map, lattice, flat, levels.empty() ? std::vector<double>{0.5} : levels, regions);
     measure_regions(map, lattice, flat, label, regions);
-    merge_regions(noise, least_energy, regions);
+    merge_regions({noise, least_energy, true}, regions);
     // The parts that were joined at once need no numbers of their own.
     for_each_band(lattice.height, lattice.threads, [&](const Band& band) {
         for (std::size_t i = static_cast<std::size_t>(band.begin) * lattice.width,

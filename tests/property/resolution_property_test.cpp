@@ -21,9 +21,11 @@ struct Distances {
 
 Distances measure(const Pattern& drawing, int bits) {
     const Image map = map_of(drawing, kTexels, bits);
-    const std::vector<Segment> truth = lines_of(drawing, kZoom, kTexels);
+    const std::vector<double> heights = half_heights(drawing);
+    const std::vector<Segment> truth = lines_of(drawing, heights, kZoom, kTexels);
     const Pattern ours = vectorized(map, drawing, true);
-    return {distance_between(truth, lines_of(ours, kZoom, kTexels)), distance_between(truth, lines_of(map, kZoom))};
+    return {distance_between(truth, lines_of(ours, heights, kZoom, kTexels)),
+            distance_between(truth, lines_of(zoomed(map, kZoom, drawing.wrap), heights, kTexels))};
 }
 
 void expect_nearer(const Pattern& drawing, int bits, const char* name) {

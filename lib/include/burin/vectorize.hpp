@@ -40,6 +40,9 @@ struct VectorizeOptions {
     double tolerance = 0.0;
     // Elements the paths may have, 0: as many as keep the textures under 1/16 of the map's 8-bit size.
     int most_elements = 0;
+    // Whether step paths follow the levels that soft ground passes. On rounded pipes they draw the shading; on a plate
+    // that is darker at its rim they are lines where nobody sees one.
+    bool shading = true;
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
 
@@ -49,6 +52,7 @@ struct Vectorized {
     double energy = 0.0;              // the map's detail: variance of HP(map) (DESIGN 7) times its texels
     double tolerance = 0.0;           // used for fitting, texels
     double path_length_texels = 0.0;  // of all paths together
+    bool shaded = false;              // some steps follow soft ground; without `shading` they would not be
 };
 
 // The part of a map that no path should follow.

@@ -1,0 +1,168 @@
+// What is known to break tracers of strokes: each case drawn at random places and angles, traced, and compared with what
+// was drawn, paths and joints and contours alike. The full table is bench/vectorizer's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "drawn_map.hpp"
+
+namespace burin::testing {
+namespace {
+
+using bench::arc;
+using bench::NodeKind;
+using bench::Pen;
+using bench::polyline;
+using bench::Stroke;
+using bench::Tally;
+
+constexpr double kDepth = 0.5;
+
+const Tally& nodes(const Recovered& r, NodeKind kind) { return r.structure.nodes[static_cast<int>(kind)]; }
+
+void report(const char* what, const Recovered& r) {
+    std::printf("  %-28s contour %.4f, 99.9 %% %.3f, lost %.2f %%; structure %.0f %%\n", what, r.contour.rms, r.contour.p999,
+                100.0 * r.contour.lost, r.structure.percent());
+    for (const bench::Miss& miss : r.structure.misses)
+        std::printf("    %s %s at %.1f, %.1f\n", miss.authored ? "missed" : "false", miss.path ? "path" : "node", miss.place.x, miss.place.y);
+}
+
+void expect_whole(const Tally& tally, const char* what) {
+    EXPECT_EQ(tally.authored, tally.matched) << what;
+    EXPECT_EQ(tally.recovered, tally.matched) << what;
+}
+
+// Nothing that was drawn is missed; more may be found.
+void expect_found(const Tally& tally, const char* what) { EXPECT_EQ(tally.authored, tally.matched) << what; }
+
+TEST(VectorizeStrokes, StemsEndInsideTheStrokeTheyMeet) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.0);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28);
+        const Vec2 c = map.field(i) + Vec2{random(-4, 4), random(-4, 4)};
+        map.draw(map.pens().groove(random(5, 9), kDepth), polyline({c - toward(along, 50), c + toward(along, 50)}));
+        map.draw(map.pens().groove(random(3.5, 6), kDepth), polyline({c, c + toward(along + degrees(random(60, 120)), 50)}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("stems", r);
+    expect_whole(nodes(r, NodeKind::tee), "tees");
+    expect_whole(r.structure.ends(), "ends");
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_LT(r.contour.rms, 0.02);
+}
+
+TEST(VectorizeStrokes, ArcsEndWhereTheyEnd) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.0);
+    for (int i = 0; i < 4; ++i) {
+        const double from = random(0, 6.28);
+        map.draw(map.pens().groove(random(4, 7), kDepth), arc(map.field(i), random(25, 50), from, from + random(1.0, 4.5)));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("arcs", r);
+    EXPECT_EQ(r.contour.lost, 0.0);
+    EXPECT_LT(r.contour.rms, 0.02);
+}
+
+// Edge points read off such walls are off by up to 0.06 texel.
+TEST(VectorizeStrokes, AxisAlignedWallsSharperThanATexel) {
+    Uniform random(seed_of_run());
+    for (const double wall : {0.4, 0.1}) {
+        DrawnMap map(wall);
+        for (int i = 0; i < 4; ++i) {
+            const Vec2 c = map.field(i) + Vec2{std::round(random(-80, 80)) / 40.0, std::round(random(-80, 80)) / 40.0};
+            const Vec2 along = i % 2 ? Vec2{50, 0} : Vec2{0, 50};
+            map.draw(map.pens().groove(4.0 + i, kDepth), polyline({c - along, c + along}));
+        }
+        const Recovered r = recovered_from(map.take());
+        report("axis-aligned walls", r);
+        expect_whole(r.structure.paths, "paths");
+        EXPECT_LT(r.contour.rms, 0.01);
+        EXPECT_LT(r.contour.p999, 0.05);
+    }
+}
+
+TEST(VectorizeStrokes, CornersStaySharp) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.0);
+    const double inner[] = {75.0, 90.0, 120.0, 145.0};
+    for (int i = 0; i < 4; ++i) {
+        const double base = random(0, 6.28);
+        const Vec2 tip = map.field(i) - toward(base + 0.5 * degrees(inner[i]), 22);
+        map.draw(map.pens().groove(random(4, 7), kDepth),
+                 polyline({tip + toward(base, 55), tip, tip + toward(base + degrees(inner[i]), 55)}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("corners", r);
+    expect_found(nodes(r, NodeKind::corner), "corners");
+    EXPECT_LT(r.contour.p999, 0.05);
+}
+
+TEST(VectorizeStrokes, AcuteFansKeepTheirStrokes) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.0);
+    for (int i = 0; i < 4; ++i) {
+        const double base = random(0, 6.28);
+        const Vec2 tip = map.field(i) - toward(base, 45);
+        for (const double angle : {-random(22, 30), 0.0, random(22, 30)})
+            map.draw(map.pens().groove(4.0, kDepth), polyline({tip, tip + toward(base + degrees(angle), 90)}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("fans", r);
+    expect_found(r.structure.ends(), "ends");
+    EXPECT_EQ(r.contour.lost, 0.0);
+}
+
+TEST(VectorizeStrokes, CrossingsAreNoPairsOfStems) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.0);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28), across = along + degrees(random(45, 135));
+        const Vec2 c = map.field(i);
+        map.draw(map.pens().groove(random(4, 7), kDepth), polyline({c - toward(along, 50), c + toward(along, 50)}));
+        map.draw(map.pens().groove(random(4, 7), kDepth), polyline({c - toward(across, 50), c + toward(across, 50)}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("crossings", r);
+    expect_whole(nodes(r, NodeKind::cross), "crossings");
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_LT(r.contour.rms, 0.02);
+}
+
+// Chains of diagonal staircases.
+TEST(VectorizeStrokes, HexagonsMeetInThrees) {
+    DrawnMap map(1.0);
+    const Pen pen = map.pens().groove(5.0, kDepth);
+    constexpr double kEdge = 26.3;
+    for (int row = 0; row < 5; ++row)
+        for (int column = 0; column < 4; ++column) {
+            const Vec2 c{34.2 + kEdge * std::sqrt(3.0) * (column + 0.5 * (row & 1)), 40.9 + 1.5 * kEdge * row};
+            for (const double angle : {-30.0, 30.0, 90.0})
+                map.draw(pen, polyline({c + toward(degrees(angle), kEdge), c + toward(degrees(angle + 60), kEdge)}));
+        }
+    const Recovered r = recovered_from(map.take());
+    report("hexagons", r);
+    expect_whole(nodes(r, NodeKind::wye), "wyes");
+    EXPECT_EQ(r.contour.lost, 0.0);
+}
+
+// Both ways: the upper of two ridges runs on over the lower, which is one path all the same.
+TEST(VectorizeStrokes, RidgesCrossOverAndUnder) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.5, 0.3);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28), across = along + degrees(random(60, 120));
+        const Vec2 c = map.field(i);
+        map.draw(map.pens().ridge(8.0, 0.5), polyline({c - toward(along, 50), c + toward(along, 50)}));
+        map.draw(map.pens().ridge(7.0, 0.35), polyline({c - toward(across, 50), c + toward(across, 50)}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("over and under", r);
+    expect_found(nodes(r, NodeKind::cross), "crossings");
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_LT(r.contour.rms, 0.01);
+}
+
+}  // namespace
+}  // namespace burin::testing
