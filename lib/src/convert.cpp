@@ -82,12 +82,16 @@ Result<Image> reconstruct(const HeightMap& map, const PackedTextures& textures, 
     return heights;
 }
 
+Comparison compare(const Image& heights, const HeightMap& map, bool repeat, int threads) {
+    const int used = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+    return compare_heights(heights, map.image, repeat ? Wrap::repeat : Wrap::clamp, used);
+}
+
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
                ConvertStats& stats) {
     const auto heights = reconstruct(map, textures, detail, {.threads = threads});
     if (!heights) return heights.error();
-    const Comparison figures = compare_heights(*heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp,
-                                               threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
+    const Comparison figures = compare(*heights, map, detail.repeat, threads);
     stats.explained = figures.explained;
     stats.path_like = figures.explained >= kPathLikeShare;
     stats.rms = figures.rms;
@@ -254,6 +258,8 @@ Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, st
     auto start = start_from(std::move(*source), options, budget, progress, clock);
     if (!start) return start.error();
     if (!clock.begin("vectorize")) return stopped();
+    // Only a bound on the error asks for closer paths later, and what was traced takes room.
+    if (options.max_error <= 0.0) start->source.traced = {};
     auto separated = separate_ground(map, vectorize_options(options));
     if (!separated) return separated.error();
     if (separated->deviation < kLeastDeviation) return start;
@@ -428,7 +434,7 @@ Status share_out(const HeightMap& map, const Candidate& candidate, int threads, 
         const auto heights = reconstruct(map, candidate.packed.textures, candidate.packed.detail,
                                          {.steps_only = true, .samples = 2, .threads = threads});
         if (!heights) return heights.error();
-        steps = compare_heights(*heights, map.image, stats.repeat ? Wrap::repeat : Wrap::clamp).explained;
+        steps = compare(*heights, map, stats.repeat, threads).explained;
     }
     stats.shares = {steps, stats.explained - steps, 1.0 - stats.explained};
     return Done{};
