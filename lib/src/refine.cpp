@@ -37,6 +37,9 @@ constexpr double kTorn = 0.1;                // map scale
 // A texel's model is as exact as this share of what it is off by, not more: doubt about a part of it is then cheap.
 constexpr double kPrecision = 0.5;
 constexpr double kClean = 2e-3;  // map scale: a map that is farther off its model does not tell it from the exact one
+// Steps are so many that they look at this number of texels, but some at least: large maps tell in fewer.
+constexpr std::size_t kMostLooks = 1000000;
+constexpr int kFewestSteps = 3;
 constexpr int kMostRefused = 6;    // steps in a row
 constexpr int kHoldRounds = 3;
 
@@ -97,7 +100,7 @@ struct Model {
     double settled = 0.0;    // the iteration ends when a step gains less than this share of the cost
 };
 constexpr Model kRough{true, kWhole, 0.0, 12, 3e-3};
-constexpr Model kClose{false, 2, 0.05, 12, 1e-2};
+constexpr Model kClose{false, 2, 0.05, 6, 2e-3};
 // Off by not more than a share of what the map is off by.
 Model exact_model(double deviation) { return {false, kFineDivisions, kPrecision * deviation, 3, 1e-3}; }
 
@@ -156,7 +159,9 @@ class Refinement {
         if (!begun) return begun.error();
         predict(best, *begun, model, 1e30);
         report.unknowns = best.parameters.count();
-        const int most = std::min(model.steps, options_.iterations);
+        const std::size_t looks = std::max<std::size_t>(1, best.prediction.residuals.size());
+        const int affordable = std::max(kFewestSteps, static_cast<int>(kMostLooks / looks));
+        const int most = std::min({model.steps, options_.iterations, affordable});
         int refused = 0;  // steps in a row
         for (int i = 0; i < most && refused < kMostRefused && report.unknowns > 0; ++i) {
             const double deviation = deviation_of(best.prediction.residuals);
