@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFloor = 1e-6;  // squared map scale per squared unit of an unknown
 constexpr int kMostSteps = 400;
-constexpr double kReduction = 1e-6;  // of the squared preconditioned residual
+constexpr double kReduction = 1e-8;  // of the squared preconditioned residual
 
 struct Entry {
     int row = 0, column = 0;
