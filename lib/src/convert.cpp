@@ -82,12 +82,16 @@ Result<Image> reconstruct(const HeightMap& map, const PackedTextures& textures, 
     return heights;
 }
 
+Comparison compare(const Image& heights, const HeightMap& map, bool repeat, int threads) {
+    const int used = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+    return compare_heights(heights, map.image, repeat ? Wrap::repeat : Wrap::clamp, used);
+}
+
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
                ConvertStats& stats) {
     const auto heights = reconstruct(map, textures, detail, {.threads = threads});
     if (!heights) return heights.error();
-    const Comparison figures = compare_heights(*heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp,
-                                               threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()));
+    const Comparison figures = compare(*heights, map, detail.repeat, threads);
     stats.explained = figures.explained;
     stats.path_like = figures.explained >= kPathLikeShare;
     stats.rms = figures.rms;
@@ -145,6 +149,7 @@ struct Candidate {
     Vectorized traced;
     Packed packed;
     ConvertStats stats;  // counts and figures of this candidate
+    int most_elements = 0;  // that it took to keep within the budget; 0: all there were
     std::size_t bytes() const { return stats.grid_bytes + stats.data_bytes; }
 };
 
@@ -199,12 +204,14 @@ Result<Source> trace_source(const HeightMap& map, std::shared_ptr<const HeightMa
 }
 
 // Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
+// `most_elements`: as many as kept to it when the same map was traced in another way, or 0.
 Result<Candidate> fit_within(const Source& source, const ConvertOptions& options, std::size_t budget,
-                             const Progress& progress, StageClock& clock) {
+                             const Progress& progress, StageClock& clock, int most_elements = 0) {
     const bool asked = options.max_texture_bytes > 0;
     const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
     VectorizeOptions vectorize = vectorize_options(options);
     vectorize.shading = source.shading;
+    if (most_elements > 0) vectorize.most_elements = most_elements;
     for (int attempt = 1;; ++attempt) {
         if (!clock.begin("vectorize")) return stopped();
         auto fitted = fit_traced_map(source.traced, source.detail(), vectorize, progress);
@@ -212,6 +219,7 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
         auto candidate = pack_candidate(std::move(*fitted), source.map, options, budget, clock);
         if (!candidate) return candidate.error();
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
+        candidate->most_elements = vectorize.most_elements;
         if (candidate->bytes() <= budget || attempt == most_attempts || elements <= fewest)
             return measure_candidate(std::move(*candidate), source.map, options, clock);
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
@@ -227,13 +235,13 @@ struct Start {
 
 // With steps along soft ground, or without where they explain too little for what they cost.
 Result<Start> start_from(Source source, const ConvertOptions& options, std::size_t budget, const Progress& progress,
-                         StageClock& clock) {
+                         StageClock& clock, int most_elements = 0) {
     constexpr double kMustGain = 0.005;
-    auto shaded = fit_within(source, options, budget, progress, clock);
+    auto shaded = fit_within(source, options, budget, progress, clock, most_elements);
     if (!shaded) return shaded.error();
     if (!shaded->traced.shaded) return Start{std::move(source), std::move(*shaded)};
     source.shading = false;
-    auto plain = fit_within(source, options, budget, progress, clock);
+    auto plain = fit_within(source, options, budget, progress, clock, shaded->most_elements);
     if (!plain) return plain.error();
     source.shading = shaded->stats.explained > plain->stats.explained + kMustGain;
     Candidate& better = source.shading ? *shaded : *plain;
@@ -250,13 +258,15 @@ Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, st
     auto start = start_from(std::move(*source), options, budget, progress, clock);
     if (!start) return start.error();
     if (!clock.begin("vectorize")) return stopped();
+    // Only a bound on the error asks for closer paths later, and what was traced takes room.
+    if (options.max_error <= 0.0) start->source.traced = {};
     auto separated = separate_ground(map, vectorize_options(options));
     if (!separated) return separated.error();
     if (separated->deviation < kLeastDeviation) return start;
     auto detail = std::make_shared<const HeightMap>(std::move(separated->detail));
     auto other_source = trace_source(map, std::move(detail), options, progress, clock);
     if (!other_source) return other_source.error();
-    auto other = start_from(std::move(*other_source), options, budget, progress, clock);
+    auto other = start_from(std::move(*other_source), options, budget, progress, clock, start->candidate.most_elements);
     if (!other) return other.error();
     const bool gains = other->candidate.stats.explained >= start->candidate.stats.explained + kMustGain;
     return gains ? std::move(other) : std::move(start);
@@ -424,7 +434,7 @@ Status share_out(const HeightMap& map, const Candidate& candidate, int threads, 
         const auto heights = reconstruct(map, candidate.packed.textures, candidate.packed.detail,
                                          {.steps_only = true, .samples = 2, .threads = threads});
         if (!heights) return heights.error();
-        steps = compare_heights(*heights, map.image, stats.repeat ? Wrap::repeat : Wrap::clamp).explained;
+        steps = compare(*heights, map, stats.repeat, threads).explained;
     }
     stats.shares = {steps, stats.explained - steps, 1.0 - stats.explained};
     return Done{};

@@ -34,11 +34,13 @@ struct Plane {
     bool internal = false;
 };
 
-// A line over a texel: its offset at the texel's centre, and how that grows.
+// A line, or a curve of gentle bend, over a texel: its offset and the place along it at the texel's centre, and how they
+// grow.
 struct Strip {
     const PreparedElement* element = nullptr;
-    double offset = 0;
+    double offset = 0, parameter = 0;
     Vec2 normal;
+    double bend = 0;  // of the offset, along the path
     // The ends that rule in a part of the texel, and where its centre lies to them.
     struct End {
         const PreparedEnd* end = nullptr;
@@ -64,6 +66,25 @@ struct TexelRun {
     int end;
     double level;
     std::vector<double> levels;
+
+    double level_of(std::size_t sample) const { return levels.empty() ? level : levels[sample]; }
+};
+
+// An element that acts in a texel, and where the texel's centre lies to it.
+struct Acting {
+    Entry entry;
+    Foot foot;
+    bool inside;  // see Nearness
+};
+
+// Of a texel: the ground or what was added to it, and the lowest cut.
+struct Samples {
+    std::vector<double> bases, cuts;
+
+    void add(std::size_t k, double z, bool internal) {
+        bases[k] = std::max(bases[k], z);
+        if (internal) cuts[k] = std::min(cuts[k], z);
+    }
 };
 
 class Rasterizer {
@@ -88,14 +109,15 @@ class Rasterizer {
     std::vector<SampleRun> find_runs(double y, std::vector<RowCrossing>& crossings) const;
 
     Nearness nearness_of(const Entry& entry, Vec2 centre, Foot& foot) const;
-    Cover cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground,
+    bool find_bend(const PreparedElement& e, const Foot& foot, double most, double& bend) const;
+    Cover cover_by_offset(const PreparedElement& e, const Foot& foot, double ground,
                           Plane& plane) const;
     bool merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const;
     bool make_strip(const PreparedElement& e, Vec2 p, const Foot& foot, bool inside, Strip& strip) const;
-    void sample_strip(const Strip& strip, const TexelRun& run, std::vector<double>& bases, std::vector<double>& cuts) const;
-    double mean_of_strips(const std::vector<Strip>& strips, const TexelRun& run) const;
-    double mean_of_samples(int x, int y, const std::vector<Entry>& entries, const TexelRun& run, bool height_field) const;
-    double sample(const std::vector<Entry>& entries, Vec2 p, double ground) const;
+    void sample_strip(const Strip& strip, const TexelRun& run, Samples& samples) const;
+    void sample_entry(const Entry& entry, Vec2 centre, const TexelRun& run, Samples& samples) const;
+    double mean_of_samples(Vec2 centre, const std::vector<Acting>& acting, const TexelRun& run) const;
+    double mean_of_surface(Vec2 centre, const std::vector<Acting>& acting, const TexelRun& run) const;
     // Rays begin at the object surface and end at the deepest point: a reader sees nothing beyond.
     double seen(double z) const { return std::clamp(z, base_offset_ - truth_.depth, base_offset_); }
     float value_of(double z) const {

@@ -6,22 +6,27 @@
 
 namespace burin::rasterizing {
 
+// The second derivative of the offset along the path, -k / (1 - k b) with k the curvature; false where the curve is
+// tighter than a texel's radius over `most`.
+bool Rasterizer::find_bend(const PreparedElement& e, const Foot& foot, double most, double& bend) const {
+    const Vec2 d = e.edge + e.bend * foot.parameter;
+    const double l = length(d), k = l > 0.0 ? cross(d, e.bend) / (2.0 * l * l * l) : 1e300;
+    const double inside = 1.0 - k * foot.offset;
+    if (!(inside > 0.0) || std::abs(k) * radius_ > most * inside) return false;
+    bend = -k / inside;
+    return true;
+}
+
 // With b' = b over the whole texel: which facets it meets, and how much a curve bends the plane.
-Cover Rasterizer::cover_by_offset(const PreparedElement& e, Vec2 p, const Foot& foot, double ground,
+Cover Rasterizer::cover_by_offset(const PreparedElement& e, const Foot& foot, double ground,
                                   Plane& plane) const {
     const PreparedProfile& profile = truth_.profiles[e.profile];
     const double width = e.width0, height = e.height0;
     const Vec2 t = truth::tangent_on(e, foot.parameter), n = normal_of(t);
     double reach = 0.5 * (std::abs(n.x) * texel_.x + std::abs(n.y) * texel_.y), bend = 0.0;
     if (e.kind == ElementKind::quadratic) {
-        // Second derivative of b along t: -k / (1 - k b), k the curvature.
-        const Vec2 d = e.edge + e.bend * foot.parameter;
-        const double l = length(d), k = l > 0.0 ? cross(d, e.bend) / (2.0 * l * l * l) : 1e300;
-        const double inside = 1.0 - k * foot.offset;
-        if (!(inside > 0.0) || std::abs(k) * radius_ > 0.1 * inside) return Cover::mixed;
-        bend = -k / inside;
+        if (!find_bend(e, foot, 0.1, bend)) return Cover::mixed;
         reach += 0.6 * std::abs(bend) * radius_ * radius_;
-        static_cast<void>(p);
     }
     const double low = (foot.offset - reach) / width, high = (foot.offset + reach) / width;
     if (high < profile.low || low > profile.high) return Cover::absent;
@@ -91,32 +96,34 @@ bool Rasterizer::merge_planes(const std::vector<Plane>& planes, double ground, d
     return true;
 }
 
-double Rasterizer::sample(const std::vector<Entry>& entries, Vec2 p, double ground) const {
-    double base = ground, cut = 1e300;
+// What an element does to the samples of a texel, asked of the truth: raises their bases, lowers their cuts.
+void Rasterizer::sample_entry(const Entry& entry, Vec2 centre, const TexelRun& run, Samples& samples) const {
+    const PreparedElement& e = *entry.element;
+    const PreparedProfile& profile = truth_.profiles[e.profile];
     Local local;
-    for (const Entry& entry : entries) {
-        const PreparedElement& e = *entry.element;
-        if (!near_box(e.box, p - entry.shift, 0.0) ||
-            !truth::acts_at(truth_, e, p - entry.shift, ground, local))
-            continue;
-        const PreparedProfile& profile = truth_.profiles[e.profile];
+    for (std::size_t k = 0; k < around_.size(); ++k) {
+        const Vec2 p = centre + around_[k] - entry.shift;
+        if (!near_box(e.box, p, 0.0) || !truth::acts_at(truth_, e, p, run.level_of(k), local)) continue;
         const double b = local.offset / local.width;
         for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
             if (!(profile.points[i].b <= b && b < profile.points[i + 1].b)) continue;
             const double z =
                 e.level + local.height * (profile.points[i].h + profile.slope[i] * (b - profile.points[i].b));
-            base = std::max(base, z);
-            if ((profile.internal_mask >> i) & 1u) cut = std::min(cut, z);
+            samples.add(k, z, (profile.internal_mask >> i) & 1u);
             break;
         }
     }
-    return std::min(base, cut);
 }
 
 // False where the element's rules need more than its offset and its position to both ends.
 bool Rasterizer::make_strip(const PreparedElement& e, Vec2 p, const Foot& foot, bool inside, Strip& strip) const {
-    if (e.kind != ElementKind::line || e.scaled || !truth_.profiles[e.profile].height_field || !(e.width0 > 0.0)) return false;
-    strip = {&e, foot.offset, normal_of(e.tangent), {}, 0};
+    constexpr double kGentle = 0.02;  // a texel's radius over the curve's: the third derivative shows nothing
+    if (!truth_.profiles[e.profile].height_field || !(std::min(e.width0, e.width0 + e.width_rise) > 0.0)) return false;
+    double bend = 0.0;
+    if (e.kind == ElementKind::quadratic && (e.scaled || !inside || !find_bend(e, foot, kGentle, bend))) return false;
+    const Vec2 t = truth::tangent_on(e, foot.parameter);
+    const double parameter = e.length > 0.0 ? dot(p - e.p0, t) / e.length : 0.0;
+    strip = {&e, foot.offset, parameter, normal_of(t), bend, {}, 0};
     if (inside) return true;
     for (const PreparedEnd& end : e.ends) {
         const bool both = end.priority == Priority::both, none = end.priority == Priority::none;
@@ -150,26 +157,34 @@ bool follow_ends(const Strip& strip, Vec2 d, double& offset) {
     return true;
 }
 
-// What a strip does to the samples of a texel: raises their bases, lowers their cuts.
-void Rasterizer::sample_strip(const Strip& strip, const TexelRun& run, std::vector<double>& bases,
-                              std::vector<double>& cuts) const {
+// The same for a strip, without asking.
+void Rasterizer::sample_strip(const Strip& strip, const TexelRun& run, Samples& samples) const {
     const PreparedElement& e = *strip.element;
     const PreparedProfile& profile = truth_.profiles[e.profile];
-    const double half = 0.5 * (samples_ - 1) / samples_, per_width = 1.0 / e.width0;
+    const double half = 0.5 * (samples_ - 1) / samples_;
+    const Vec2 tangent{strip.normal.y, -strip.normal.x};
+    double per_width = 1.0 / e.width0, height = e.height0;
+    const bool steady = strip.end_count == 0 && !e.scaled && strip.bend == 0.0;
     const double reach = half * (std::abs(strip.normal.x) * texel_.x + std::abs(strip.normal.y) * texel_.y);
     const double lowest = (strip.offset - reach) * per_width - 1e-12, on_line = 1e-12 * truth_.size.x;
     const ProfilePoint* const points = profile.points.data();
     const std::size_t last = profile.points.size() - 2;  // facet
     std::size_t first = 0;
-    while (strip.end_count == 0 && first < last && points[first + 1].b <= lowest) ++first;
+    while (steady && first < last && points[first + 1].b <= lowest) ++first;
     bool left = true, right = true;  // whether the ground is that of a side
     const auto find_sides = [&](double ground) {
         left = std::abs(ground - e.left_level) <= truth_.level_tolerance;
         right = std::abs(ground - e.right_level) <= truth_.level_tolerance;
     };
     find_sides(run.level);
-    for (std::size_t k = 0; k < bases.size(); ++k) {
-        double offset = strip.offset + dot(strip.normal, around_[k]);
+    for (std::size_t k = 0; k < around_.size(); ++k) {
+        const double along = dot(tangent, around_[k]);
+        double offset = strip.offset + dot(strip.normal, around_[k]) + 0.5 * strip.bend * along * along;
+        if (e.scaled) {
+            const double u = std::clamp(strip.parameter + along / e.length, 0.0, 1.0);
+            per_width = 1.0 / (e.width0 + e.width_rise * u);
+            height = e.height0 + e.height_rise * u;
+        }
         if (!follow_ends(strip, around_[k], offset)) continue;
         const double b = offset * per_width;
         if (b < profile.low || b >= profile.high) continue;
@@ -177,76 +192,65 @@ void Rasterizer::sample_strip(const Strip& strip, const TexelRun& run, std::vect
         if (std::abs(offset) <= on_line ? !left && !right : !(offset < 0.0 ? left : right)) continue;
         std::size_t i = first;
         while (i < last && points[i + 1].b <= b) ++i;
-        const double z = e.level + e.height0 * (points[i].h + profile.slope[i] * (b - points[i].b));
-        bases[k] = std::max(bases[k], z);
-        if ((profile.internal_mask >> i) & 1u) cuts[k] = std::min(cuts[k], z);
+        const double z = e.level + height * (points[i].h + profile.slope[i] * (b - points[i].b));
+        samples.add(k, z, (profile.internal_mask >> i) & 1u);
     }
 }
 
-double Rasterizer::mean_of_strips(const std::vector<Strip>& strips, const TexelRun& run) const {
-    thread_local std::vector<double> bases, cuts;
-    const std::size_t count = static_cast<std::size_t>(samples_) * static_cast<std::size_t>(samples_);
-    if (run.levels.empty())
-        bases.assign(count, run.level);
-    else
-        bases = run.levels;
-    cuts.assign(count, 1e300);
-    for (const Strip& strip : strips) sample_strip(strip, run, bases, cuts);
+double Rasterizer::mean_of_samples(Vec2 centre, const std::vector<Acting>& acting, const TexelRun& run) const {
+    thread_local Samples samples;
+    samples.bases.clear();
+    for (std::size_t k = 0; k < around_.size(); ++k) samples.bases.push_back(run.level_of(k));
+    samples.cuts.assign(around_.size(), 1e300);
+    Strip strip;
+    for (const Acting& a : acting)
+        if (make_strip(*a.entry.element, centre - a.entry.shift, a.foot, a.inside, strip))
+            sample_strip(strip, run, samples);
+        else
+            sample_entry(a.entry, centre, run, samples);
     double sum = 0.0;
-    for (std::size_t k = 0; k < count; ++k) sum += seen(std::min(bases[k], cuts[k]));
-    return sum / static_cast<double>(count);
+    for (std::size_t k = 0; k < around_.size(); ++k) sum += seen(std::min(samples.bases[k], samples.cuts[k]));
+    return sum / static_cast<double>(around_.size());
 }
 
-double Rasterizer::mean_of_samples(int x, int y, const std::vector<Entry>& entries, const TexelRun& run,
-                                   bool height_field) const {
+// Where a profile is no height field.
+double Rasterizer::mean_of_surface(Vec2 centre, const std::vector<Acting>& acting, const TexelRun& run) const {
     std::vector<std::uint32_t> candidates;
-    if (!height_field)
-        for (const Entry& entry : entries)
-            candidates.push_back(static_cast<std::uint32_t>(entry.element - truth_.elements.data()));
+    for (const Acting& a : acting)
+        candidates.push_back(static_cast<std::uint32_t>(a.entry.element - truth_.elements.data()));
     std::sort(candidates.begin(), candidates.end());
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-    const std::size_t n = static_cast<std::size_t>(samples_);
     double sum = 0.0;
-    for (std::size_t k = 0; k < n * n; ++k) {
-        const double ground = run.levels.empty() ? run.level : run.levels[k];
-        const Vec2 p{(x + (static_cast<double>(k % n) + 0.5) / samples_) * texel_.x,
-                     (y + (static_cast<double>(k / n) + 0.5) / samples_) * texel_.y};
-        sum += seen(height_field ? sample(entries, p, ground) : owner_.surface_at(p, candidates, ground).height);
-    }
-    return sum / static_cast<double>(n * n);
+    for (std::size_t k = 0; k < around_.size(); ++k)
+        sum += seen(owner_.surface_at(centre + around_[k], candidates, run.level_of(k)).height);
+    return sum / static_cast<double>(around_.size());
 }
 
 float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket, const TexelRun& run) const {
     const bool uniform = run.levels.empty();
     const Vec2 centre = texel_centre(x, y);
-    thread_local std::vector<Entry> entries;  // those that act in this texel
+    thread_local std::vector<Acting> acting;
     thread_local std::vector<Plane> planes;
-    thread_local std::vector<Strip> strips;
-    entries.clear();
+    acting.clear();
     planes.clear();
-    strips.clear();
     bool mixed = !uniform, height_field = true;
     for (const Entry& entry : bucket) {
-        const PreparedElement& e = *entry.element;
-        Foot foot;
+        Acting a{entry, {}, false};
         Plane plane;
-        const Nearness nearness = nearness_of(entry, centre, foot);
+        const Nearness nearness = nearness_of(entry, centre, a.foot);
         if (nearness == Nearness::absent) continue;
-        const bool inside = nearness == Nearness::inside;
+        a.inside = nearness == Nearness::inside;
         const Cover cover =
-            uniform && inside ? cover_by_offset(e, centre - entry.shift, foot, run.level, plane) : Cover::mixed;
+            uniform && a.inside ? cover_by_offset(*entry.element, a.foot, run.level, plane) : Cover::mixed;
         if (cover == Cover::absent) continue;
-        entries.push_back(entry);
+        acting.push_back(a);
         planes.push_back(plane);
-        Strip strip;
-        if (make_strip(e, centre - entry.shift, foot, inside, strip)) strips.push_back(strip);
         mixed = mixed || cover == Cover::mixed;
-        height_field = height_field && truth_.profiles[e.profile].height_field;
+        height_field = height_field && truth_.profiles[entry.element->profile].height_field;
     }
     double mean = 0.0;
     if (!mixed && merge_planes(planes, run.level, mean)) return value_of(mean);
-    if (strips.size() == entries.size()) return value_of(mean_of_strips(strips, run));
-    return value_of(mean_of_samples(x, y, entries, run, height_field));
+    return value_of(height_field ? mean_of_samples(centre, acting, run) : mean_of_surface(centre, acting, run));
 }
 
 }  // namespace burin::rasterizing

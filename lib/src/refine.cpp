@@ -36,6 +36,10 @@ constexpr double kShortestSplit = 6.0;       // texels
 constexpr double kTorn = 0.1;                // map scale
 // A texel's model is as exact as this share of what it is off by, not more: doubt about a part of it is then cheap.
 constexpr double kPrecision = 0.5;
+constexpr double kClean = 2e-3;  // map scale: a map that is farther off its model does not tell it from the exact one
+// Steps are so many that they look at this number of texels, but some at least: large maps tell in fewer.
+constexpr std::size_t kMostLooks = 1000000;
+constexpr int kFewestSteps = 3;
 constexpr int kMostRefused = 6;    // steps in a row
 constexpr int kHoldRounds = 3;
 
@@ -96,8 +100,8 @@ struct Model {
     double settled = 0.0;    // the iteration ends when a step gains less than this share of the cost
 };
 constexpr Model kRough{true, kWhole, 0.0, 12, 3e-3};
-constexpr Model kClose{false, 2, 0.05, 12, 1e-2};
-// The last steps: off by not more than a share of what the map is off by.
+constexpr Model kClose{false, 2, 0.05, 6, 2e-3};
+// Off by not more than a share of what the map is off by.
 Model exact_model(double deviation) { return {false, kFineDivisions, kPrecision * deviation, 3, 1e-3}; }
 
 struct State {
@@ -155,7 +159,9 @@ class Refinement {
         if (!begun) return begun.error();
         predict(best, *begun, model, 1e30);
         report.unknowns = best.parameters.count();
-        const int most = std::min(model.steps, options_.iterations);
+        const std::size_t looks = std::max<std::size_t>(1, best.prediction.residuals.size());
+        const int affordable = std::max(kFewestSteps, static_cast<int>(kMostLooks / looks));
+        const int most = std::min({model.steps, options_.iterations, affordable});
         int refused = 0;  // steps in a row
         for (int i = 0; i < most && refused < kMostRefused && report.unknowns > 0; ++i) {
             const double deviation = deviation_of(best.prediction.residuals);
@@ -408,6 +414,19 @@ Result<State> refine_roughly(const Refinement& refinement, const Pattern& start,
     return best;
 }
 
+// Then closely, and exactly where the map is clean enough. `model`: the one that judged last.
+Result<State> refine_finely(const Refinement& refinement, const Pattern& rough, const RefineOptions& options,
+                            RefineReport& report, Model& model) {
+    model = kClose;
+    Result<State> close = refinement.run(rough, model, report);
+    if (!close) return close;
+    if (options.profiles) keep_simpler(refinement, model, *close, report);
+    const double deviation = deviation_of(close->prediction.residuals);
+    if (deviation > kClean) return close;
+    model = exact_model(deviation);
+    return refinement.run(close->pattern, model, report);
+}
+
 }  // namespace
 }  // namespace refinement
 
@@ -421,13 +440,10 @@ Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const Re
     RefineReport report;
     const Result<State> rough = refine_roughly(refinement, start, options, report);
     if (!rough) return rough.error();
-    Result<State> close = refinement.run(rough->pattern, kClose, report);
-    if (!close) return close.error();
-    if (options.profiles) keep_simpler(refinement, kClose, *close, report);
-    const Model exact = exact_model(deviation_of(close->prediction.residuals));
-    const Result<State> best = refinement.run(close->pattern, exact, report);
+    Model model;
+    const Result<State> best = refine_finely(refinement, rough->pattern, options, report, model);
     if (!best) return best.error();
-    const Result<Prediction> before = refinement.look(start, exact);
+    const Result<Prediction> before = refinement.look(start, model);
     if (!before) return before.error();
     report.rms_before = root_mean_square(before->residuals);
     report.rms_after = root_mean_square(best->prediction.residuals);

@@ -60,7 +60,12 @@ class Summation {
     }
 
   private:
-    using Row = std::vector<double>;
+    // Most unknowns of an element have no say in one texel.
+    struct Entry {
+        int slot = 0;
+        double value = 0.0;
+    };
+    using Row = std::vector<Entry>;
 
     struct Ground {
         double level = 0.0, weight = 0.0, residual = 0.0;  // sums over texels
@@ -84,10 +89,9 @@ class Summation {
 
     // Of the used element at `place`; with its pairs to those after it.
     void add_row(std::size_t place, double weight, double weighted_residual) {
-        const Row& row = rows_[place];
         std::vector<double>& gradient = sum_.gradients[used_[place]];
-        if (gradient.empty()) gradient.assign(row.size(), 0.0);
-        for (std::size_t k = 0; k < row.size(); ++k) gradient[k] += weighted_residual * row[k];
+        if (gradient.empty()) gradient.assign(unknowns_[used_[place]].unknowns.size(), 0.0);
+        for (const Entry& entry : rows_[place]) gradient[entry.slot] += weighted_residual * entry.value;
         for (std::size_t other = place; other < used_.size(); ++other) add_pair(place, other, weight);
     }
 
@@ -98,23 +102,25 @@ class Summation {
         if (place == used_.size()) {
             used_.push_back(element);
             if (rows_.size() < used_.size()) rows_.resize(used_.size());
-            rows_[place].assign(u.unknowns.size(), 0.0);
+            rows_[place].clear();
         }
-        for (const LocalTerm& term : u.terms) rows_[place][term.slot] += term.factor * local[term.local];
+        dense_.assign(u.unknowns.size(), 0.0);
+        for (const Entry& entry : rows_[place]) dense_[entry.slot] = entry.value;
+        for (const LocalTerm& term : u.terms) dense_[term.slot] += term.factor * local[term.local];
+        rows_[place].clear();
+        for (std::size_t slot = 0; slot < dense_.size(); ++slot)
+            if (dense_[slot] != 0.0) rows_[place].push_back({static_cast<int>(slot), dense_[slot]});
     }
 
+    // Of an element with itself, only what lies on and above the diagonal.
     void add_pair(std::size_t i, std::size_t j, double weight) {
         if (used_[i] > used_[j]) std::swap(i, j);
-        const Row& rows = rows_[i];
-        const Row& columns = rows_[j];
-        double* block = block_of(used_[i], used_[j], rows.size() * columns.size());
-        for (const double a : rows) {
-            if (a == 0.0) {  // most of them where the texel is flat
-                block += columns.size();
-                continue;
-            }
-            const double scaled = weight * a;
-            for (const double b : columns) *block++ += scaled * b;
+        const std::size_t rows = unknowns_[used_[i]].unknowns.size(), columns = unknowns_[used_[j]].unknowns.size();
+        double* const block = block_of(used_[i], used_[j], rows * columns);
+        for (std::size_t a = 0; a < rows_[i].size(); ++a) {
+            const double scaled = weight * rows_[i][a].value;
+            double* const row = block + static_cast<std::size_t>(rows_[i][a].slot) * columns;
+            for (std::size_t b = i == j ? a : 0; b < rows_[j].size(); ++b) row[rows_[j][b].slot] += scaled * rows_[j][b].value;
         }
     }
 
@@ -140,6 +146,7 @@ class Summation {
     std::size_t last_offset_ = 0;
     std::vector<std::uint32_t> used_;
     std::vector<Row> rows_;
+    std::vector<double> dense_;
     std::vector<Ground> grounds_;
 };
 

@@ -43,7 +43,8 @@ struct ElementUnknowns {
 struct Equations {
     struct Pair {
         std::uint32_t first = 0, second = 0;  // first <= second
-        std::size_t offset = 0;               // into values: rows of first's unknowns, columns of second's
+        // Into values: rows of first's unknowns, columns of second's; nothing below the diagonal where they are the same.
+        std::size_t offset = 0;
     };
     std::vector<Pair> pairs;
     std::vector<double> values;

@@ -80,7 +80,7 @@ void for_tiles(const Layout& layout, const Instance& instance, TileRange range, 
     const Vec2 side{kTile * layout.side.x, kTile * layout.side.y};
     const Vec2 p = Vec2{0.5 * (range.x0 + range.x1) * side.x, 0.5 * (range.y0 + range.y1) * side.y} - instance.offset;
     const double reach = std::max(-feature.left, feature.right);
-    const double margin = 0.5 * length({columns * side.x, rows * side.y}) + kNearMargin + 1.0;
+    const double margin = 0.5 * (columns * side.x + rows * side.y) + kNearMargin + 1.0;
     const Foot foot = foot_of(feature.frame, p);
     const bool near = foot.distance < reach + margin ||
                       reach_at(feature.frame, p, foot, -reach, reach, margin).possible ||

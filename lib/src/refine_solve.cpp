@@ -32,8 +32,8 @@ std::vector<Entry> entries_of(const std::vector<ElementUnknowns>& elements, cons
                     const double value = *block++;
                     if (value == 0.0) continue;
                     entries.push_back({row, column, value});
-                    // A pair of different elements stands for both orders.
-                    if (pair.first != pair.second) entries.push_back({column, row, value});
+                    // A pair stands for both orders.
+                    if (pair.first != pair.second || row != column) entries.push_back({column, row, value});
                 }
             }
         }

@@ -97,6 +97,8 @@ bool TexelModel::gather(int x, int y) {
     steps_[0].clear();
     if (tile_list_.empty()) return false;
     texel_ = {layout_.centre(x, y), layout_.side, layout_.half_diagonal(), 1.0};
+    if (candidates_.size() < tile_list_.size()) candidates_.resize(tile_list_.size());
+    if (lone_) return gather_lone();
     near_step_ = false;
     ground_ = layout_.outer_level;
     if (!layout_.ground.empty()) {
@@ -104,13 +106,29 @@ bool TexelModel::gather(int x, int y) {
         near_step_ = level == kNearStep;
         ground_ = level;
     }
-    if (candidates_.size() < tile_list_.size()) candidates_.resize(tile_list_.size());
     for (const Listed& listed : tile_list_) consider(listed, texel_);
     if (near_step_) {
         steps_[0] = *tile_steps_;
         if (divisions_ > kWhole) keep_nearest_steps(layout_, texel_.centre, texel_.half, steps_[0]);
     }
     return count_ > 0;
+}
+
+// The tile's one feature, where no other has a say.
+bool TexelModel::gather_lone() {
+    Actor actor = actor_of(tile_list_.front().instance);
+    const Feature& feature = *actor.feature;
+    actor.foot = foot_of(feature.frame, texel_.centre - actor.offset, tile_list_.front().guess);
+    const double margin = texel_.half + kNearMargin;
+    if (actor.foot.offset < feature.left - margin || actor.foot.offset > feature.right + margin) return false;
+    actor.reach.possible = actor.reach.plain = true;
+    actor.candidate = 0;
+    candidates_[0].instance = actor.instance;
+    candidates_[0].feature = &feature;
+    candidates_[0].used = false;
+    count_ = 1;
+    actors_[0].push_back(actor);
+    return true;
 }
 
 // What acts nowhere in the tile is left out; where the tile has one ground, so is what others leave no say.
@@ -139,6 +157,14 @@ void TexelModel::enter_tile(std::size_t tile, int column, int row) {
     for (const Actor& actor : tile_actors_)
         tile_list_.push_back({actor.instance, guess_near(actor.feature->frame, actor.foot, radius)});
     tile_steps_ = layout_.tile_has_step[tile] ? &layout_.tile_steps[tile] : nullptr;
+    lone_ = tile_actors_.size() == 1 && rules_tile(tile_actors_.front(), tile, column, row, radius);
+}
+
+// Whether the actor plainly rules all of the tile, as most do that hold a path at all.
+bool TexelModel::rules_tile(const Actor& actor, std::size_t tile, int column, int row, double radius) {
+    if (!actor.reach.plain || !is_tame(actor.feature->frame, actor.foot, radius)) return false;
+    if (actor.feature->step) return tile_steps_->size() == 1 && tile_steps_->front().instance == actor.instance;
+    return has_one_ground(tile, column, row) && same_level(actor.feature->level_left, ground_);
 }
 
 // Takes the ground of a tile that no step comes near.
@@ -404,7 +430,36 @@ bool TexelModel::ruled_by_one() {
     return true;
 }
 
+// Where a feature is alone: one cell where it is straight or level, some where it bends.
+double TexelModel::lone_mean(const Actor& actor) {
+    const double bend = std::abs(actor.foot.bend);
+    const int cells = std::min(divisions_, bend <= kStraight ? 1 : bend < kBent ? 2 : 4);
+    Say say;
+    speak(actor, texel_, say);
+    if (cells == 1 || profile_mean(*actor.feature->profile, say.b, say.spread, nullptr, nullptr).slope == 0.0)
+        return lone_cell(actor, texel_);
+    const Vec2 side = texel_.side * (1.0 / cells), corner = texel_.centre - texel_.side * 0.5;
+    double sum = 0.0;
+    for (int j = 0; j < cells; ++j) {
+        for (int i = 0; i < cells; ++i) {
+            Square cell{{corner.x + (i + 0.5) * side.x, corner.y + (j + 0.5) * side.y}, side, texel_.half / cells, 1.0 / (cells * cells)};
+            Actor part = actor;
+            part.foot = foot_of(actor.feature->frame, cell.centre - actor.offset, std::clamp(actor.foot.parameter, 0.0, 1.0));
+            sum += lone_cell(part, cell);
+        }
+    }
+    return sum / (cells * cells);
+}
+
+double TexelModel::lone_cell(const Actor& actor, const Square& cell) {
+    Say say;
+    if (!speak(actor, cell, say)) return actor.feature->level_left;
+    if (derivatives_) return differentiate(candidates_[0], say, cell.share);
+    return actor.feature->level_left + say.height * profile_mean(*actor.feature->profile, say.b, say.spread, nullptr, nullptr).value;
+}
+
 double TexelModel::mean() {
+    if (lone_) return lone_mean(actors_[0].front());
     if (divisions_ == kWhole) return cell_mean(texel_, 0, derivatives_);
     cull(actors_[0], steps_[0], texel_.half);
     most_divisions_ = divisions_;
@@ -428,27 +483,33 @@ double TexelModel::square_mean(const Square& square, int depth) {
     return 0.25 * sum;
 }
 
-bool TexelModel::say_of(const Actor& actor, const Square& cell, double ground, bool any_level, Say& say) const {
-    const Feature& f = *actor.feature;
-    const Vec2 q = cell.centre - actor.offset;
-    say.placement = place(f.frame, q, actor.foot, actor.reach.plain);
+// Where the actor's profile lies over a cell. False where it does not act.
+bool TexelModel::speak(const Actor& actor, const Square& cell, Say& say) const {
+    const ElementFrame& frame = actor.feature->frame;
+    say.placement = place(frame, cell.centre - actor.offset, actor.foot, actor.reach.plain);
     if (!say.placement.acts) return false;
-    const double width = scale_at(f.frame.width0, f.frame.width1, say.placement.along);
-    if (width <= 1e-9) return false;
+    say.width = scale_at(frame.width0, frame.width1, say.placement.along);
+    say.height = scale_at(frame.height0, frame.height1, say.placement.along);
+    if (say.width <= 1e-9) return false;
     const Vec2 across = normal_of(say.placement.gradient);
     say.placement.offset += say.placement.bend * (cell.side.x * cell.side.x * across.x * across.x +
                                                   cell.side.y * cell.side.y * across.y * across.y) / 24.0;
-    say.spread = spread_of(say.placement, cell.side, width);
-    const double b = say.placement.offset / width;
+    say.spread = spread_of(say.placement, cell.side, say.width);
+    say.b = say.placement.offset / say.width;
+    return true;
+}
+
+bool TexelModel::say_of(const Actor& actor, const Square& cell, double ground, bool any_level, Say& say) const {
+    if (!speak(actor, cell, say)) return false;
+    const Feature& f = *actor.feature;
     if (!any_level) {
-        if (b < f.profile->left() - say.spread.half() || b > f.profile->right() + say.spread.half()) return false;
-        if (!same_level(f.step && b > 0.0 ? f.level_right : f.level_left, ground)) return false;
+        if (say.b < f.profile->left() - say.spread.half() || say.b > f.profile->right() + say.spread.half()) return false;
+        if (!same_level(f.step && say.b > 0.0 ? f.level_right : f.level_left, ground)) return false;
     }
-    const double height = scale_at(f.frame.height0, f.frame.height1, say.placement.along);
-    say.value = f.level_left + height * profile_mean(*f.profile, b, say.spread, nullptr, nullptr).value;
+    say.value = f.level_left + say.height * profile_mean(*f.profile, say.b, say.spread, nullptr, nullptr).value;
     // A step's cut ends with its profile, at full height where a ridge stands there; a groove's edge fades out.
-    const bool within = b >= f.profile->left() && b <= f.profile->right();
-    say.cuts = (within || !f.step) && internal_at(*f.profile, b);
+    const bool within = say.b >= f.profile->left() && say.b <= f.profile->right();
+    say.cuts = (within || !f.step) && internal_at(*f.profile, say.b);
     return true;
 }
 
@@ -489,17 +550,14 @@ double TexelModel::cell_mean(const Square& cell, int depth, bool derivatives) {
     return value;
 }
 
-void TexelModel::differentiate(Candidate& c, const Say& say, double share) {
+double TexelModel::differentiate(Candidate& c, const Say& say, double share) {
     start_using(c);
     const Feature& f = *c.feature;
     const int points = static_cast<int>(f.profile->b.size());
     const double along = say.placement.along;
-    const double width = scale_at(f.frame.width0, f.frame.width1, along);
-    const double height = scale_at(f.frame.height0, f.frame.height1, along);
     std::array<double, kMaxPoints> d_b, d_h;
-    const ProfileMean mean =
-        profile_mean(*f.profile, say.placement.offset / width, say.spread, d_b.data(), d_h.data());
-    const double by_offset = share * height * mean.slope / width;
+    const ProfileMean mean = profile_mean(*f.profile, say.b, say.spread, d_b.data(), d_h.data());
+    const double by_offset = share * say.height * mean.slope / say.width;
     for (int k = 0; k < 3; ++k) {
         c.local[kPoints + 2 * k] -= by_offset * say.placement.weight[k] * say.placement.gradient.x;
         c.local[kPoints + 2 * k + 1] -= by_offset * say.placement.weight[k] * say.placement.gradient.y;
@@ -507,15 +565,16 @@ void TexelModel::differentiate(Candidate& c, const Say& say, double share) {
     double by_width = 0.0;
     for (int i = 0; i < points; ++i) {
         by_width += d_b[i] * f.profile->b[i];
-        c.local[kProfile + i] += share * height * d_b[i];
-        c.local[kProfile + points + i] += share * height * d_h[i];
+        c.local[kProfile + i] += share * say.height * d_b[i];
+        c.local[kProfile + points + i] += share * say.height * d_h[i];
     }
-    by_width *= share * height / width;
+    by_width *= share * say.height / say.width;
     c.local[kWidths] += by_width * (1.0 - along);
     c.local[kWidths + 1] += by_width * along;
     c.local[kHeights] += share * mean.value * (1.0 - along);
     c.local[kHeights + 1] += share * mean.value * along;
     c.local[kLevel] += share;
+    return f.level_left + say.height * mean.value;
 }
 
 // Ground moves with the levels of any feature that stands on it.

@@ -90,12 +90,18 @@ class TexelModel {
     struct Say {
         Placement placement;
         Spread spread;
+        double width = 1.0, height = 1.0;  // scales
+        double b = 0.0;                    // on the profile
         double value = 0.0;
         bool cuts = false;
     };
 
     void enter_tile(std::size_t tile, int column, int row);
     bool has_one_ground(std::size_t tile, int column, int row);
+    bool rules_tile(const Actor& actor, std::size_t tile, int column, int row, double radius);
+    bool gather_lone();
+    double lone_mean(const Actor& actor);
+    double lone_cell(const Actor& actor, const Square& cell);
     void consider(const Listed& listed, const Square& texel);
     Actor actor_of(std::uint32_t index) const;
     void bound(Actor& actor, double radius) const;
@@ -114,9 +120,11 @@ class TexelModel {
     bool ruled_by_one();
     double square_mean(const Square& square, int depth);
     double cell_mean(const Square& cell, int depth, bool derivatives);
+    bool speak(const Actor& actor, const Square& cell, Say& say) const;
     bool say_of(const Actor& actor, const Square& cell, double ground, bool any_level, Say& say) const;
     int nearest_actor(const Square& cell, int depth, double& ground) const;
-    void differentiate(Candidate& candidate, const Say& say, double share);
+    // Adds the derivatives of a cell's mean to the candidate's; returns the mean.
+    double differentiate(Candidate& candidate, const Say& say, double share);
     void differentiate_ground(double ground, double share);
 
     static constexpr int kDepths = 5;
@@ -140,6 +148,7 @@ class TexelModel {
     Square texel_;
     double ground_ = 0.0;
     bool near_step_ = false;
+    bool lone_ = false;  // one feature plainly rules the whole tile
     int winner_ = -1;  // of the last cell: a candidate, -1 for the ground
 };
 

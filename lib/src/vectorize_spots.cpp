@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLeastShare = 0.8;    // of a part's squares, that its distance from the middle tells
 constexpr double kLeastEnergy = 5e-5;   // of the map's, for one spot
-constexpr std::uint32_t kMostFlat = 12;           // flat texels at its bottom: a plateau has more
+constexpr std::uint32_t kMostFlat = 12;  // flat texels at its bottom: a plateau has more
 constexpr double kMargin = 2.0;         // texels around a part that belong to its spot
 
 struct Part {

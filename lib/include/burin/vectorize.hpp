@@ -6,7 +6,9 @@
 //
 // Grooves and ridges become centre lines with a symmetric or asymmetric profile; plateaus become closed step paths, or
 // step paths that end on each other. A groove that crosses another stays one path. Chains are fitted by `fit_curve`,
-// profiles are measured across the whole path, averaged robustly, and shared between paths of equal section.
+// profiles are measured across the whole path, averaged robustly, and shared between paths of equal section. Where a line
+// swells, fades or tapers, its elements carry width and height scales instead of other profiles. Bolts, dots and short
+// slots are lines next to no length, whose ends carry the profile round (caps `round`, or the hip for square ones).
 // What the paths do not explain is left to the fallback maps.
 //
 // Source: [2010] 4.1 and 6 (vectorizing an artist's displacement map); DESIGN 3.
