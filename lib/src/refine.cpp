@@ -102,7 +102,7 @@ struct Model {
 constexpr Model kRough{true, kWhole, 0.0, 12, 3e-3};
 constexpr Model kClose{false, 2, 0.05, 6, 2e-3};
 // Off by not more than a share of what the map is off by.
-Model exact_model(double deviation) { return {false, kFineDivisions, kPrecision * deviation, 3, 1e-3}; }
+Model exact_model(double deviation) { return {false, kFineDivisions, kPrecision * deviation, 12, 1e-3}; }
 
 struct State {
     Pattern pattern;
