@@ -38,7 +38,7 @@ constexpr double kTorn = 0.1;                // map scale
 constexpr double kPrecision = 0.5;
 constexpr double kClean = 2e-3;  // map scale: a map that is farther off its model does not tell it from the exact one
 // Steps are so many that they look at this number of texels, but some at least: large maps tell in fewer.
-constexpr std::size_t kMostLooks = 1000000;
+constexpr std::size_t kMostLooks = 800000;
 constexpr int kFewestSteps = 3;
 constexpr int kMostRefused = 6;    // steps in a row
 constexpr int kHoldRounds = 3;
@@ -420,10 +420,9 @@ Result<State> refine_finely(const Refinement& refinement, const Pattern& rough, 
     model = kClose;
     Result<State> close = refinement.run(rough, model, report);
     if (!close) return close;
+    if (deviation_of(close->prediction.residuals) > kClean) return close;
     if (options.profiles) keep_simpler(refinement, model, *close, report);
-    const double deviation = deviation_of(close->prediction.residuals);
-    if (deviation > kClean) return close;
-    model = exact_model(deviation);
+    model = exact_model(deviation_of(close->prediction.residuals));
     return refinement.run(close->pattern, model, report);
 }
 
