@@ -89,7 +89,6 @@ double deviation_of(const std::vector<Residual>& residuals, bool on_walls = true
 // Huber's.
 double threshold_of(double deviation) { return std::max(kLeastThreshold, kThresholdInDeviations * deviation); }
 
-
 // How a pattern is compared with the map. What is rough is only so within a texel of where features meet, but many times
 // faster.
 struct Model {
@@ -113,6 +112,12 @@ struct State {
     std::vector<std::uint8_t> resolves;  // by path: whether anything is left of it once it is resolved
 };
 
+// A pattern and how the rough model sees it.
+struct Seen {
+    Pattern pattern;
+    Prediction prediction;
+};
+
 // Over the whole map: patterns whose features cover different texels compare fairly.
 double misfit(const Prediction& prediction, double threshold) {
     return robust_cost(prediction.residuals, threshold) + robust_cost(prediction.far, threshold);
@@ -131,15 +136,6 @@ class Refinement {
     Refinement(const Image& map, Vec2 side, const RefineOptions& options)
         : map_(map), side_(side), options_(options), sparse_(sample_map(map, true)), dense_(sample_map(map, false)) {}
 
-    // The model's map and its equations, at a state's pattern.
-    void predict(State& state, const ResolvedPattern& resolved, const Model& model, double threshold) const {
-        state.elements = state.parameters.of_elements(state.pattern, resolved);
-        ForwardOptions forward = forward_options(model);
-        forward.robust = threshold;
-        state.prediction = Forward(resolved, map_, side_, sampling(model), options_.threads).predict(state.elements, forward);
-        state.resolves = resolving_paths(state.pattern, resolved);
-    }
-
     // The model's map alone.
     Result<Prediction> look(const Pattern& pattern, const Model& model) const {
         const Result<ResolvedPattern> resolved = resolve_pattern(pattern, resolve_options());
@@ -151,54 +147,32 @@ class Refinement {
 
     // Damped Gauss-Newton steps from `start` until nothing is gained.
     Result<State> run(const Pattern& start, const Model& model, RefineReport& report) const {
-        Pattern tied = start;
-        Parameters parameters(tied, options_);
-        const std::vector<double> damping(parameters.count(), kFirstDamping);
-        State best{std::move(tied), std::move(parameters), {}, {}, damping, {}};
-        const Result<ResolvedPattern> begun = resolve_pattern(best.pattern, resolve_options());
-        if (!begun) return begun.error();
-        predict(best, *begun, model, 1e30);
-        report.unknowns = best.parameters.count();
-        const std::size_t looks = std::max<std::size_t>(1, best.prediction.residuals.size());
+        Result<State> best = begin(start, model);
+        if (!best) return best;
+        report.unknowns = best->parameters.count();
+        const std::size_t looks = std::max<std::size_t>(1, best->prediction.residuals.size());
         const int affordable = std::max(kFewestSteps, static_cast<int>(kMostLooks / looks));
-        const int most = std::min({model.steps, options_.iterations, affordable});
+        const int most = report.unknowns > 0 ? std::min({model.steps, options_.iterations, affordable}) : 0;
         int refused = 0;  // steps in a row
-        for (int i = 0; i < most && refused < kMostRefused && report.unknowns > 0; ++i) {
-            const double deviation = deviation_of(best.prediction.residuals);
-            NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
-            equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
+        for (int i = 0; i < most && refused < kMostRefused; ++i) {
+            const double gain = advance(*best, model, refused > 0);
             ++report.iterations;
-            State next{best.pattern, best.parameters, {}, {}, best.damping, {}};
-            const Result<ResolvedPattern> resolved = take_step(best, equations, next);
-            if (resolved) predict(next, *resolved, model, threshold_of(deviation));
-            const double before = cost_of(best, deviation);
-            const double after = resolved ? cost_of(next, deviation) : 1e300;
-            if (!resolved) return best;
-            adapt_damping(best, next, threshold_of(deviation), refused > 0, after < before);
-            if (after >= before) {
-                ++refused;
-                best.damping = next.damping;
-                continue;
-            }
-            best = std::move(next);
-            refused = 0;
-            if (before - after < model.settled * before) break;
+            refused = gain > 0.0 ? 0 : refused + 1;
+            if (gain > 0.0 && gain < model.settled) break;
         }
         return best;
     }
 
     // The pattern with ends where the map shows them; each stays that fits no better around where it moved.
-    Pattern with_settled_ends(const Pattern& pattern) const {
-        const Result<Prediction> before = look(pattern, kRough);
-        if (!before) return pattern;
+    Seen with_settled_ends(Seen before) const {
         std::vector<std::uint8_t> held;
         for (int round = 0; round < kSettleRounds; ++round) {
-            Pattern settled = pattern;
+            Pattern settled = before.pattern;
             const std::vector<MovedEnd> moved = settle_ends(settled, map_, side_, held);
-            if (moved.empty()) return pattern;
-            const Result<Prediction> after = look(settled, kRough);
-            if (!after) return pattern;
-            const std::vector<float> gains = gains_of(*before, *after, kRoughThreshold);
+            if (moved.empty()) return before;
+            Result<Prediction> after = look(settled, kRough);
+            if (!after) return before;
+            const std::vector<float> gains = gains_of(before.prediction, *after, kRoughThreshold);
             bool any_held = false;
             for (const MovedEnd& end : moved) {
                 if (sum_within(gains, end.window) > 0.0) continue;
@@ -206,22 +180,22 @@ class Refinement {
                 held[end.end] = 1;
                 any_held = true;
             }
-            const bool better = misfit(*after, kRoughThreshold) < misfit(*before, kRoughThreshold);
-            if (better && (!any_held || round + 1 == kSettleRounds)) return settled;
+            const bool better = misfit(*after, kRoughThreshold) < misfit(before.prediction, kRoughThreshold);
+            if (better && (!any_held || round + 1 == kSettleRounds)) return {std::move(settled), std::move(*after)};
         }
-        return pattern;
+        return before;
     }
 
     // The pattern with tails that go on as arcs, unless that fits worse.
-    Pattern with_tidy_tails(const Pattern& pattern) const {
-        Pattern tidy = pattern;
-        return tidy_tails(tidy) && fits(tidy, kTidyMayCost, pattern) ? tidy : pattern;
+    Seen with_tidy_tails(Seen before) const {
+        Pattern tidy = before.pattern;
+        return tidy_tails(tidy) ? better_of(std::move(before), std::move(tidy), kTidyMayCost) : before;
     }
 
     // The pattern with curves for the polylines that go round, unless that fits worse.
-    Pattern with_curves(const Pattern& pattern) const {
-        Pattern curved = pattern;
-        return curve_polylines(curved) && fits(curved, 1.0, pattern) ? curved : pattern;
+    Seen with_curves(Seen before) const {
+        Pattern curved = before.pattern;
+        return curve_polylines(curved) ? better_of(std::move(before), std::move(curved), 1.0) : before;
     }
 
   private:
@@ -229,6 +203,44 @@ class Refinement {
         std::vector<std::uint8_t> resolves(pattern.paths.size(), 0);
         for (const ResolvedElement& element : resolved.elements) resolves[element.path] = 1;
         return resolves;
+    }
+
+    // The model's map and its equations, at a state's pattern.
+    void predict(State& state, const ResolvedPattern& resolved, const Model& model, double threshold) const {
+        state.elements = state.parameters.of_elements(state.pattern, resolved);
+        ForwardOptions forward = forward_options(model);
+        forward.robust = threshold;
+        state.prediction = Forward(resolved, map_, side_, sampling(model), options_.threads).predict(state.elements, forward);
+        state.resolves = resolving_paths(state.pattern, resolved);
+    }
+
+    Result<State> begin(const Pattern& start, const Model& model) const {
+        Pattern tied = start;
+        Parameters parameters(tied, options_);
+        std::vector<double> damping(parameters.count(), kFirstDamping);
+        State state{std::move(tied), std::move(parameters), {}, {}, std::move(damping), {}};
+        const Result<ResolvedPattern> resolved = resolve_pattern(state.pattern, resolve_options());
+        if (!resolved) return resolved.error();
+        predict(state, *resolved, model, 1e30);
+        return state;
+    }
+
+    // One step. Returns the share of the cost that it gained, not above 0 when it was refused.
+    double advance(State& best, const Model& model, bool refused_before) const {
+        const double deviation = deviation_of(best.prediction.residuals);
+        NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
+        equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
+        State next{best.pattern, best.parameters, {}, {}, best.damping, {}};
+        const Result<ResolvedPattern> resolved = take_step(best, equations, next);
+        if (!resolved) return 0.0;
+        predict(next, *resolved, model, threshold_of(deviation));
+        const double before = cost_of(best, deviation), after = cost_of(next, deviation);
+        adapt_damping(best, next, threshold_of(deviation), refused_before, after < before);
+        if (after < before)
+            best = std::move(next);
+        else
+            best.damping = std::move(next.damping);
+        return before > 0.0 ? (before - after) / before : 0.0;
     }
 
     // Unknowns that made their texels worse are damped more, the others less: a place where the model leaps does not keep
@@ -268,10 +280,11 @@ class Refinement {
         }
     }
 
-    // Whether a pattern's misfit is below a share of another's.
-    bool fits(const Pattern& pattern, double share, const Pattern& other) const {
-        const Result<Prediction> before = look(other, kRough), after = look(pattern, kRough);
-        return before && after && misfit(*after, kRoughThreshold) < share * misfit(*before, kRoughThreshold);
+    // The other pattern when its misfit is below a share of the first one's.
+    Seen better_of(Seen first, Pattern other, double share) const {
+        Result<Prediction> after = look(other, kRough);
+        if (!after || misfit(*after, kRoughThreshold) >= share * misfit(first.prediction, kRoughThreshold)) return first;
+        return {std::move(other), std::move(*after)};
     }
 
     // How much less the second prediction is off at each texel.
@@ -399,9 +412,12 @@ Result<State> refine_roughly(const Refinement& refinement, const Pattern& start,
                              RefineReport& report) {
     Pattern first = start;
     if (options.profiles) make_symmetric(first);
-    if (options.elements) first = refinement.with_tidy_tails(refinement.with_curves(first));
-    if (options.ends) first = refinement.with_settled_ends(first);
-    Result<State> best = refinement.run(first, kRough, report);
+    Result<Prediction> prediction = refinement.look(first, kRough);
+    if (!prediction) return prediction.error();
+    Seen seen{std::move(first), std::move(*prediction)};
+    if (options.elements) seen = refinement.with_tidy_tails(refinement.with_curves(std::move(seen)));
+    if (options.ends) seen = refinement.with_settled_ends(std::move(seen));
+    Result<State> best = refinement.run(seen.pattern, kRough, report);
     if (!best) return best;
     if (options.profiles) keep_simpler(refinement, kRough, *best, report);
     for (int round = 0; round < kSplitRounds && options.positions && options.elements; ++round) {

@@ -138,6 +138,60 @@ TEST(RefineForward, TexelsNeedNotBeSquare) {
     EXPECT_LT(std::sqrt(squares / static_cast<double>(truth.texels.size())), 4e-4);
 }
 
+// A closed step within another, with a wall that is gentle on its inner side and steep on its outer one: the ground
+// between them is neither's inside.
+TEST(RefineForward, AStepMayBeSoftOnOneSideOnly) {
+    Pattern pattern;
+    pattern.size = {128.0, 128.0};
+    pattern.depth = pattern.base_offset = 1.0;
+    pattern.wrap = Wrap::clamp;
+    pattern.outer_level = 1.0;
+    pattern.profiles = {{{{-1.0, 0.0}, {1.0, -0.5}}, {}}, {{{-20.0, 0.0}, {-15.0, -0.1}, {1.0, -0.3}}, {}}};
+    const auto square = [](double low, double high, bool right_inside) {
+        const Vec2 a{low, low}, b{high, low}, c{high, high}, d{low, high};
+        const std::vector<Vec2> corners = right_inside ? std::vector<Vec2>{a, b, c, d} : std::vector<Vec2>{a, d, c, b};
+        Path path;
+        path.closed = true;
+        for (std::size_t i = 0; i < 4; ++i) {
+            Element e;
+            e.p0 = corners[i], e.p2 = corners[(i + 1) % 4];
+            path.elements.push_back(e);
+        }
+        return path;
+    };
+    pattern.paths = {square(10.0, 118.0, true), square(40.0, 88.0, false)};
+    pattern.paths[0].level = 1.0;
+    pattern.paths[1].profile = 1;
+    pattern.paths[1].level = 0.8;  // inside; 0.5 around it
+    const Image truth = map_of(pattern, 128, 128, 16);
+    EXPECT_NEAR(truth.at(64, 30), 0.5, 1e-3);
+    const ResolvedPattern input = resolved(pattern);
+    const refinement::Sampling sampling = refinement::every_texel(128, 128);
+    const Image model = refinement::Forward(input, truth, {1.0, 1.0}, sampling).image({});
+    for (std::size_t k = 0; k < truth.texels.size(); ++k) ASSERT_NEAR(model.texels[k], truth.texels[k], 0.01) << k;
+}
+
+// The weights of a map's texels: together all of them, each on its own where the map bends.
+TEST(RefineSampling, EveryTexelIsSpokenFor) {
+    const Pattern drawn = bench::plate(256, {5.0, 1.5});
+    Image map = map_of(drawn, 256, 256, 4);
+    map.height = 251;  // not a multiple of a block
+    map.texels.resize(static_cast<std::size_t>(map.width) * map.height);
+    for (const bool sparse : {false, true}) {
+        const refinement::Sampling sampling = refinement::sample_map(map, sparse);
+        std::size_t sum = 0, asked = 0;
+        for (const std::uint8_t weight : sampling.weights) sum += weight, asked += weight > 0;
+        EXPECT_EQ(sum, map.texels.size());
+        EXPECT_LT(asked, map.texels.size() * (sparse ? 6 : 9) / 10);
+    }
+    const refinement::Sampling sampling = refinement::sample_map(map, false);
+    for (int y = 1; y + 1 < map.height; ++y)
+        for (int x = 1; x + 1 < map.width; ++x)
+            if (std::abs(map.at(x - 1, y) - 2.0f * map.at(x, y) + map.at(x + 1, y)) > 0.05f) {
+                EXPECT_EQ(sampling.at(x, y), 1) << x << ", " << y;
+            }
+}
+
 // Moves one unknown and compares the change of the squared misfit with the gradient of the equations.
 TEST(RefineForward, GradientEqualsDifferences) {
     const Pattern drawn = bench::plate(256, {5.0, 1.5});
