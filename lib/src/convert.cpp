@@ -70,6 +70,8 @@ std::vector<std::uint32_t> count_elements(const ResolvedPattern& pattern, double
 
 // Maps of lines and plateaus come above 0.5, rock and terrain stay below 0.2.
 constexpr double kPathLikeShare = 0.35;
+// A map whose paths explain less than this has more of them than the budget takes, or other things.
+constexpr double kClearShare = 0.6;
 constexpr double kAccidentShare = 0.1;
 
 // The heights of the textures as they are stored.
@@ -257,6 +259,8 @@ Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, st
     if (!source) return source.error();
     auto start = start_from(std::move(*source), options, budget, progress, clock);
     if (!start) return start.error();
+    // Where the budget is what leaves most of the map unexplained, level ground would not help.
+    if (start->candidate.most_elements > 0 && start->candidate.stats.explained < kClearShare) return start;
     if (!clock.begin("vectorize")) return stopped();
     // Only a bound on the error asks for closer paths later, and what was traced takes room.
     if (options.max_error <= 0.0) start->source.traced = {};

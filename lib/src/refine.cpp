@@ -40,7 +40,7 @@ constexpr double kClean = 2e-3;  // map scale: a map that is farther off its mod
 // Steps are so many that they look at this number of texels, but some at least: large maps tell in fewer.
 constexpr std::size_t kMostLooks = 800000;
 constexpr int kFewestSteps = 3;
-constexpr int kMostRefused = 6;    // steps in a row
+constexpr int kMostRefused = 8;    // steps in a row
 constexpr int kHoldRounds = 3;
 
 // The pattern in texels of the map's width, heights in map scale: white 1, black 0.
@@ -254,7 +254,8 @@ class Refinement {
             for (const int unknown : from.elements[e].unknowns) of_unknowns[unknown] += of_elements[e];
         for (std::size_t i = 0; i < of_unknowns.size(); ++i) {
             double& damping = next.damping[i];
-            if (of_unknowns[i] < 0.0) damping = std::max(10.0 * damping, 1e-2);
+            // Refused twice: what leaps may lie where no texel is an element's own, so that all of it goes slower.
+            if (of_unknowns[i] < 0.0 || (!accepted && refused_before)) damping = std::max(10.0 * damping, 1e-2);
             // What was too little damping a step ago is so still.
             if (of_unknowns[i] >= 0.0 && accepted && !refused_before) damping = std::max(0.1 * damping, 1e-6);
         }

@@ -289,10 +289,11 @@ Wrap choose_wrap(const Image& map, WrapChoice choice, int threads) {
     return choice == WrapChoice::repeat ? Wrap::repeat : Wrap::clamp;
 }
 
-ProfileOptions profile_options(const Traced& traced) {
+ProfileOptions profile_options(const Traced& traced, const VectorizeOptions& asked) {
     ProfileOptions options;
     options.noise = traced.noise;
-    options.least_gain = 1e-5 * traced.energy;
+    // Where elements are short, most of them do more as lines of their own.
+    options.least_gain = (asked.most_elements > 0 ? 1e-4 : 1e-5) * traced.energy;
     options.reach = std::clamp(0.06 * std::min(traced.lattice.width, traced.lattice.height), 8.0, 64.0);
     options.most_profiles = static_cast<std::size_t>(std::clamp(traced.lattice.size() / 4096, 16, 400));
     return options;
@@ -351,7 +352,7 @@ Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, 
     std::vector<FittedChain> fitted = fit_within(traced, map.image, options, budget, regions, result, thread_count(options));
     untangle_steps(fitted, lattice, result.tolerance);
     if (!proceed(0.6)) return stopped();
-    const ProfileSet set = measure_profiles(fitted, map.image, lattice, regions, profile_options(traced));
+    const ProfileSet set = measure_profiles(fitted, map.image, lattice, regions, profile_options(traced, options));
     drop_useless(fitted, traced.energy, budget);
     if (!proceed(0.8)) return stopped();
     const Wrap wrap = lattice.wrap ? Wrap::repeat : Wrap::clamp;
