@@ -280,7 +280,7 @@ Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, st
 // long and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a
 // clock, so that the bytes do not depend on the machine.
 bool can_afford_refinement(const Pattern& pattern, const Image& map) {
-    constexpr double kMostTexels = 1.2e6;  // element lengths times profile widths: up to 10 seconds of one core
+    constexpr double kMostTexels = 3e5;  // element lengths times profile widths: up to 3 seconds on two cores
     const double texels = map.width / pattern.size.x;
     double work = 0.0;
     for (const Path& path : pattern.paths) {
