@@ -3,12 +3,6 @@ set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 
-# find_package(OpenCV) offers forty modules; burin links these four and no other.
-find_package(OpenCV REQUIRED COMPONENTS core imgproc ximgproc quality)
-add_library(burin_opencv INTERFACE)
-target_include_directories(burin_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
-target_link_libraries(burin_opencv INTERFACE opencv_core opencv_imgproc opencv_ximgproc opencv_quality)
-
 # CGAL says more than a reader of the log needs.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 set(CMAKE_MESSAGE_LOG_LEVEL_BEFORE ${CMAKE_MESSAGE_LOG_LEVEL})

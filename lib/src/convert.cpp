@@ -7,7 +7,6 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
-#include <thread>
 
 #include <burin/compare.hpp>
 #include <burin/reconstruct.hpp>
@@ -84,16 +83,11 @@ Result<Image> reconstruct(const HeightMap& map, const PackedTextures& textures, 
     return heights;
 }
 
-Comparison compare(const Image& heights, const HeightMap& map, bool repeat, int threads) {
-    const int used = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
-    return compare_heights(heights, map.image, repeat ? Wrap::repeat : Wrap::clamp, used);
-}
-
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
                ConvertStats& stats) {
     const auto heights = reconstruct(map, textures, detail, {.threads = threads});
     if (!heights) return heights.error();
-    const Comparison figures = compare(*heights, map, detail.repeat, threads);
+    const Comparison figures = compare_heights(*heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp, threads);
     stats.explained = figures.explained;
     stats.path_like = figures.explained >= kPathLikeShare;
     stats.rms = figures.rms;
@@ -438,7 +432,7 @@ Status share_out(const HeightMap& map, const Candidate& candidate, int threads, 
         const auto heights = reconstruct(map, candidate.packed.textures, candidate.packed.detail,
                                          {.steps_only = true, .samples = 2, .threads = threads});
         if (!heights) return heights.error();
-        steps = compare(*heights, map, stats.repeat, threads).explained;
+        steps = compare_heights(*heights, map.image, stats.repeat ? Wrap::repeat : Wrap::clamp, threads).explained;
     }
     stats.shares = {steps, stats.explained - steps, 1.0 - stats.explained};
     return Done{};

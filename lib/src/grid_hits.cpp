@@ -1,10 +1,9 @@
 // Which cells each element touches.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 #include "grid_internal.hpp"
+#include "parallel.hpp"
 #include "resolve_curve.hpp"
 
 namespace burin::gridding {
@@ -101,21 +100,11 @@ class Toucher {
 }  // namespace
 
 void for_each_index(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-    const unsigned machine = std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t workers =
-        std::min<std::size_t>(threads > 0 ? static_cast<std::size_t>(threads) : machine, (count + 255) / 256);
-    if (workers <= 1) {
-        for (std::size_t i = 0; i < count; ++i) work(i);
-        return;
-    }
-    std::atomic<std::size_t> next{0};
-    std::vector<std::thread> pool;
-    for (std::size_t w = 0; w < workers; ++w)
-        pool.emplace_back([&] {
-            for (std::size_t first = next.fetch_add(64); first < count; first = next.fetch_add(64))
-                for (std::size_t i = first; i < std::min(count, first + 64); ++i) work(i);
-        });
-    for (std::thread& thread : pool) thread.join();
+    constexpr std::size_t kPiece = 64, kWorthAThread = 256;
+    const int worth = static_cast<int>(std::max<std::size_t>(1, (count + kWorthAThread - 1) / kWorthAThread));
+    for_each_piece((count + kPiece - 1) / kPiece, std::min(thread_count(threads), worth), [&](std::size_t piece) {
+        for (std::size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) work(i);
+    });
 }
 
 Chain find_chain(const ResolvedPattern& pattern) {

@@ -10,7 +10,12 @@
 
 namespace burin {
 
-// Calls work(i) once for every i in [0, count), on up to `threads` threads; returns when all is done.
+// What an option `threads` means: 0 is as many as the machine has.
+inline int thread_count(int asked) {
+    return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+// Calls work(i) once for every i in [0, count), on up to `threads` threads (0: see thread_count); returns when all is done.
 template <typename Work>
 void for_each_piece(std::size_t count, int threads, const Work& work) {
     std::atomic<std::size_t> next{0};
@@ -18,7 +23,7 @@ void for_each_piece(std::size_t count, int threads, const Work& work) {
         for (std::size_t i = next++; i < count; i = next++) work(i);
     };
     std::vector<std::thread> others;
-    for (std::size_t t = 1; t < std::min(count, static_cast<std::size_t>(std::max(1, threads))); ++t) others.emplace_back(take);
+    for (std::size_t t = 1; t < std::min(count, static_cast<std::size_t>(thread_count(threads))); ++t) others.emplace_back(take);
     take();
     for (std::thread& other : others) other.join();
 }

@@ -7,10 +7,9 @@
 #include <burin/rasterize.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
-#include <thread>
 
+#include "parallel.hpp"
 #include "rasterize_internal.hpp"
 
 namespace burin {
@@ -251,16 +250,8 @@ Image Rasterizer::run() {
     fill_buckets();
     fill_step_rows();
     Image image(region_.width, region_.height);
-    std::atomic<int> next{first_row_};
-    const auto work = [&] {
-        for (int row = next++; row <= last_row_; row = next++) draw_bucket_row(row, image);
-    };
-    int count = threads_ > 0 ? threads_ : static_cast<int>(std::thread::hardware_concurrency());
-    count = std::clamp(count, 1, last_row_ - first_row_ + 1);
-    std::vector<std::thread> workers;
-    for (int i = 1; i < count; ++i) workers.emplace_back(work);
-    work();
-    for (std::thread& worker : workers) worker.join();
+    for_each_piece(static_cast<std::size_t>(last_row_ - first_row_ + 1), threads_,
+                   [&](std::size_t row) { draw_bucket_row(first_row_ + static_cast<int>(row), image); });
     return image;
 }
 

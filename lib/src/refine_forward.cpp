@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "refine_parallel.hpp"
+#include "parallel.hpp"
 #include "refine_scene.hpp"
 #include "refine_texel.hpp"
 
@@ -197,8 +197,8 @@ Forward::~Forward() = default;
 
 Prediction Forward::predict(const std::vector<ElementUnknowns>& unknowns, const ForwardOptions& options) const {
     std::vector<Prediction> parts(scene_->parts());
-    in_parallel(scene_->parts(), options.threads,
-                [&](int part) { scene_->predict(part, unknowns, options, parts[part]); });
+    for_each_piece(parts.size(), options.threads,
+                   [&](std::size_t part) { scene_->predict(static_cast<int>(part), unknowns, options, parts[part]); });
     Prediction all;
     for (Prediction& part : parts) {
         all.parts.push_back(std::move(part.parts.front()));
@@ -211,9 +211,9 @@ Prediction Forward::predict(const std::vector<ElementUnknowns>& unknowns, const 
 Image Forward::image(const ForwardOptions& options) const {
     const Layout& layout = scene_->layout;
     Image out(layout.width, layout.height);
-    in_parallel(scene_->parts(), options.threads, [&](int part) {
+    for_each_piece(static_cast<std::size_t>(scene_->parts()), options.threads, [&](std::size_t part) {
         TexelModel texel(layout, options, false);
-        scene_->for_texels(part, [&](int x, int y) {
+        scene_->for_texels(static_cast<int>(part), [&](int x, int y) {
             const double ground = layout.ground_at(static_cast<std::size_t>(y) * layout.width + x);
             out.at(x, y) = static_cast<float>(texel.gather(x, y) ? texel.mean() : ground);
         });

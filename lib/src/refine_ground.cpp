@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "refine_parallel.hpp"
+#include "parallel.hpp"
 #include "refine_scene.hpp"
 
 namespace burin::refinement {
@@ -231,10 +231,10 @@ void lay_ground(Layout& layout, int threads) {
     layout.tile_steps.resize(layout.tile_has_step.size());
     layout.tile_far.assign(layout.tile_has_step.size(), 1);
     std::vector<float> sides(layout.ground.size(), 0.0f);
-    in_parallel(layout.tile_rows, threads, [&](int row) {
+    for_each_piece(static_cast<std::size_t>(layout.tile_rows), threads, [&](std::size_t row) {
         TileGround ground(layout, sides);
         for (int column = 0; column < layout.tile_columns; ++column)
-            if (layout.tile_has_step[static_cast<std::size_t>(row) * layout.tile_columns + column]) ground.lay(column, row);
+            if (layout.tile_has_step[row * layout.tile_columns + column]) ground.lay(column, static_cast<int>(row));
     });
     RegionFill(layout, sides).fill_all();
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include <burin/compare.hpp>
 #include <burin/fit.hpp>
@@ -280,10 +279,6 @@ std::size_t element_budget(const Lattice& lattice, const VectorizeOptions& optio
     return static_cast<std::size_t>(most / 36.0);
 }
 
-int thread_count(const VectorizeOptions& options) {
-    return options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
 Wrap choose_wrap(const Image& map, WrapChoice choice, int threads) {
     if (choice == WrapChoice::automatic) return borders_match(map, threads) ? Wrap::repeat : Wrap::clamp;
     return choice == WrapChoice::repeat ? Wrap::repeat : Wrap::clamp;
@@ -306,8 +301,8 @@ Error stopped() { return {ErrorCode::invalid_argument, "vectorize: stopped by th
 Result<SoftGround> separate_ground(const HeightMap& map, const VectorizeOptions& options) {
     const Status checked = check_options(map, options);
     if (!checked) return checked.error();
-    const Wrap wrap = choose_wrap(map.image, options.wrap, thread_count(options));
-    const Lattice lattice{map.image.width, map.image.height, wrap == Wrap::repeat, thread_count(options)};
+    const Wrap wrap = choose_wrap(map.image, options.wrap, thread_count(options.threads));
+    const Lattice lattice{map.image.width, map.image.height, wrap == Wrap::repeat, thread_count(options.threads)};
     const Image ground = soft_ground(map.image, lattice, estimate_noise(map.image, lattice));
     SoftGround separated{map, 0.0};
     double square = 0.0;
@@ -326,9 +321,9 @@ Result<SoftGround> separate_ground(const HeightMap& map, const VectorizeOptions&
 Result<TracedMap> trace_map(const HeightMap& map, const VectorizeOptions& options, const Progress& progress) {
     const Status checked = check_options(map, options);
     if (!checked) return checked.error();
-    const Wrap wrap = choose_wrap(map.image, options.wrap, thread_count(options));
+    const Wrap wrap = choose_wrap(map.image, options.wrap, thread_count(options.threads));
     auto traced = std::make_shared<Traced>();
-    traced->lattice = {map.image.width, map.image.height, wrap == Wrap::repeat, thread_count(options)};
+    traced->lattice = {map.image.width, map.image.height, wrap == Wrap::repeat, thread_count(options.threads)};
     traced->noise = estimate_noise(map.image, traced->lattice);
     traced->energy = detail_variance(map.image, wrap, traced->lattice.threads) * static_cast<double>(map.image.texels.size());
     if (progress && !progress("vectorize", 0.05)) return stopped();
@@ -349,7 +344,7 @@ Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, 
     result.noise = traced.noise;
     result.energy = traced.energy;
     const std::size_t budget = element_budget(lattice, options);
-    std::vector<FittedChain> fitted = fit_within(traced, map.image, options, budget, regions, result, thread_count(options));
+    std::vector<FittedChain> fitted = fit_within(traced, map.image, options, budget, regions, result, thread_count(options.threads));
     untangle_steps(fitted, lattice, result.tolerance);
     if (!proceed(0.6)) return stopped();
     const ProfileSet set = measure_profiles(fitted, map.image, lattice, regions, profile_options(traced, options));

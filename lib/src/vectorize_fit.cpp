@@ -2,12 +2,11 @@
 #include "vectorize_fit.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 #include <burin/fit.hpp>
 
+#include "parallel.hpp"
 #include "resolve_curve.hpp"
 
 namespace burin::vectorizing {
@@ -159,27 +158,20 @@ std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, const Imag
     std::size_t points = 0;
     for (const Chain& chain : chains) points += chain.points.size();
     const bool curves = points <= kMostCurvePoints;
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-        for (std::size_t c = next++; c < chains.size(); c = next++) {
-            const Result<FitResult> fit = curves ? fit_curves(chains[c], map, lattice, tolerance)
-                                                 : Result<FitResult>(FitResult{{}, {}, {}, 1e9, 1e9});
-            if (!fit) continue;  // all points coincide: nothing to draw
-            fitted[c].chain = chains[c];
-            const bool sound = fit->max_error < 3.0 * tolerance + 0.5 &&
-                               stays_near(chains[c].points, fit->elements, 2.0 + 2.0 * chains[c].half_width);
-            // Along a ragged rim a smooth chain needs more elements than corners do, and shows no more.
-            const std::vector<Element> polyline = fit_polyline(chains[c], tolerance);
-            const bool smooth = sound && 3 * texels_of(fit->elements) <= 4 * texels_of(polyline);
-            fitted[c].elements = smooth ? fit->elements : polyline;
-            drop_knots(fitted[c].elements);
-            fitted[c].length = chain_length(fitted[c].elements);
-        }
-    };
-    std::vector<std::thread> pool;
-    for (int t = 1; t < threads; ++t) pool.emplace_back(work);
-    work();
-    for (std::thread& thread : pool) thread.join();
+    for_each_piece(chains.size(), threads, [&](std::size_t c) {
+        const Result<FitResult> fit = curves ? fit_curves(chains[c], map, lattice, tolerance)
+                                             : Result<FitResult>(FitResult{{}, {}, {}, 1e9, 1e9});
+        if (!fit) return;  // all points coincide: nothing to draw
+        fitted[c].chain = chains[c];
+        const bool sound = fit->max_error < 3.0 * tolerance + 0.5 &&
+                           stays_near(chains[c].points, fit->elements, 2.0 + 2.0 * chains[c].half_width);
+        // Along a ragged rim a smooth chain needs more elements than corners do, and shows no more.
+        const std::vector<Element> polyline = fit_polyline(chains[c], tolerance);
+        const bool smooth = sound && 3 * texels_of(fit->elements) <= 4 * texels_of(polyline);
+        fitted[c].elements = smooth ? fit->elements : polyline;
+        drop_knots(fitted[c].elements);
+        fitted[c].length = chain_length(fitted[c].elements);
+    });
     fitted.erase(std::remove_if(fitted.begin(), fitted.end(), [](const FittedChain& f) { return f.elements.empty(); }),
                  fitted.end());
     return fitted;

@@ -319,7 +319,7 @@ ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, 
     for (FittedChain& fitted : chains) fitted.gain = 0.0;
     measure_gains(chains, set, map, owners, regions);
     measure_scales(chains, set, map, lattice, regions, owners,
-                   {options.reach, options.noise, options.least_gain});
+                   {options.reach, options.least_gain});
     return set;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "parallel.hpp"
 #include "resolve_curve.hpp"
@@ -30,6 +29,10 @@ struct Sample {
 struct Scale {
     double height = 1.0, width = 1.0;
 };
+
+Scale between(const Scale& a, const Scale& b, double t) {
+    return {a.height + (b.height - a.height) * t, a.width + (b.width - a.width) * t};
+}
 
 // A profile as texels show it: its mean over a texel's width.
 class BlurredProfile {
@@ -154,22 +157,17 @@ class ScaleFit {
         return sum;
     }
 
-    // Squared error with scales 1 less that with the scales found.
-    double gain() const {
+    // Squared error with the scales found.
+    double error() const {
         double sum = 0.0;
-        for (const Sample& s : samples_) {
-            const double plain = s.value - profile_.value(s.offset, 1.0), scaled = s.value - predict(s);
-            sum += plain * plain - scaled * scaled;
-        }
+        for (const Sample& s : samples_) sum += std::pow(s.value - predict(s), 2.0);
         return sum;
     }
 
   private:
     Scale scale_at(const Sample& s) const {
         const int k = std::min(static_cast<int>(s.station), course_.stations - 1);
-        const double t = s.station - k;
-        const Scale &a = scales_[k], &b = scales_[course_.after(k)];
-        return {a.height + (b.height - a.height) * t, a.width + (b.width - a.width) * t};
+        return between(scales_[k], scales_[course_.after(k)], s.station - k);
     }
     double predict(const Sample& s) const {
         const Scale scale = scale_at(s);
@@ -178,9 +176,7 @@ class ScaleFit {
 
     void gather() {
         std::fill(evidence_.begin(), evidence_.end(), Evidence{});
-        double square = 0.0;
-        for (const Sample& s : samples_) square += std::pow(s.value - predict(s), 2.0);
-        const double usual = 2.0 * std::sqrt(square / std::max<std::size_t>(1, samples_.size())) + 1e-9;
+        const double usual = 2.0 * std::sqrt(error() / std::max<std::size_t>(1, samples_.size())) + 1e-9;
         for (const Sample& s : samples_) {
             const Scale scale = scale_at(s);
             double by_width = 0.0;
@@ -255,10 +251,6 @@ class ScaleFit {
 double loss(const Evidence& e, const Scale& wanted, const Scale& given) {
     const double h = given.height - wanted.height, w = given.width - wanted.width;
     return e.own[0] * h * h + 2.0 * e.own[1] * h * w + e.own[2] * w * w;
-}
-
-Scale between(const Scale& a, const Scale& b, double t) {
-    return {a.height + (b.height - a.height) * t, a.width + (b.width - a.width) * t};
 }
 
 // Fewest stations between which the scales run straight: each costs `cost`. Begins and ends at the ends of the course.
@@ -354,12 +346,12 @@ void scale_chain(FittedChain& fitted, const Course& course, const BlurredProfile
                  const std::vector<Sample>& samples, double least_gain) {
     ScaleFit fit(course, profile, samples);
     // Elements with scales take twice the bytes of a plain line: what the map leaves to gain may not be worth that.
-    if (fit.plain_error() <= least_gain * static_cast<double>(fitted.elements.size())) return;
+    const double plain = fit.plain_error();
+    if (plain <= least_gain * static_cast<double>(fitted.elements.size())) return;
     fit.run();
-    const double gain = fit.gain();
     const std::vector<int> knots = choose_knots(fit.scales(), fit.evidence(), course.closed, least_gain);
     std::vector<Element> elements = divide(fitted, course, fit.scales(), knots);
-    const double kept = gain - total_loss(fit.scales(), fit.evidence(), knots);
+    const double kept = plain - fit.error() - total_loss(fit.scales(), fit.evidence(), knots);
     const double cost = least_gain * (2.0 * elements.size() - fitted.elements.size());
     if (kept <= cost) return;
     fitted.elements = std::move(elements);

@@ -9,7 +9,6 @@ namespace burin::vectorizing {
 
 struct ScaleOptions {
     double reach = 32.0;         // texels, as ProfileOptions::reach
-    double noise = 0.0;
     double least_gain = 0.0;     // squared height error that an element with scales has to take away
 };
 

@@ -21,6 +21,16 @@ struct Part {
     std::vector<int> index;
 };
 
+// The smallest box that holds the texels' centres.
+Box bounds_of(const Part& part) {
+    Box box{part.texels.front(), part.texels.front()};
+    for (const Vec2 p : part.texels) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+    return box;
+}
+
 // The texels of the part that holds texel `first`, in unwrapped coordinates.
 Part collect_part(int first, const std::vector<std::uint8_t>& mask, const Lattice& lattice, std::vector<std::uint8_t>& seen) {
     Part part;
@@ -83,17 +93,13 @@ std::vector<int> texels_around(const Part& part, const Lattice& lattice) {
 bool on_level_ground(const Part& part, const Image& map, const Lattice& lattice, double contrast) {
     constexpr int kNear = 1, kFar = 3;  // texels from the part
     constexpr double kMostUneven = 0.3;  // of the contrast
-    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
-    for (const Vec2 p : part.texels) {
-        x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
-        y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
-    }
-    const int columns = static_cast<int>(x1 - x0) + 1 + 2 * kFar, rows = static_cast<int>(y1 - y0) + 1 + 2 * kFar;
+    const auto [low, high] = bounds_of(part);
+    const int columns = static_cast<int>(high.x - low.x) + 1 + 2 * kFar, rows = static_cast<int>(high.y - low.y) + 1 + 2 * kFar;
     std::vector<std::uint8_t> distance(static_cast<std::size_t>(columns) * rows, kFar + 1);
     for (const Vec2 p : part.texels)
         for (int dy = -kFar; dy <= kFar; ++dy)
             for (int dx = -kFar; dx <= kFar; ++dx) {
-                const int column = static_cast<int>(p.x - x0) + kFar + dx, row = static_cast<int>(p.y - y0) + kFar + dy;
+                const int column = static_cast<int>(p.x - low.x) + kFar + dx, row = static_cast<int>(p.y - low.y) + kFar + dy;
                 std::uint8_t& d = distance[static_cast<std::size_t>(row) * columns + column];
                 d = std::min<std::uint8_t>(d, static_cast<std::uint8_t>(std::max(std::abs(dx), std::abs(dy))));
             }
@@ -101,7 +107,8 @@ bool on_level_ground(const Part& part, const Image& map, const Lattice& lattice,
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
             const std::uint8_t d = distance[static_cast<std::size_t>(row) * columns + column];
-            const int texel = lattice.index(static_cast<int>(std::floor(x0)) - kFar + column, static_cast<int>(std::floor(y0)) - kFar + row);
+            const int texel = lattice.index(static_cast<int>(std::floor(low.x)) - kFar + column,
+                                            static_cast<int>(std::floor(low.y)) - kFar + row);
             if (d > kNear && d <= kFar && texel >= 0) around.push_back(map.texels[texel]);
         }
     std::sort(around.begin(), around.end());
@@ -131,14 +138,10 @@ struct Field {
 };
 
 Field look_around(const Part& part, const Image& response, const Lattice& lattice) {
-    double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
-    for (const Vec2 p : part.texels) {
-        x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
-        y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
-    }
+    const auto [low, high] = bounds_of(part);
     Field field;
-    for (double y = y0 - kMargin; y <= y1 + kMargin; y += 1.0)
-        for (double x = x0 - kMargin; x <= x1 + kMargin; x += 1.0) {
+    for (double y = low.y - kMargin; y <= high.y + kMargin; y += 1.0)
+        for (double x = low.x - kMargin; x <= high.x + kMargin; x += 1.0) {
             const int texel = lattice.index(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
             if (texel < 0) continue;
             field.places.push_back({x, y});

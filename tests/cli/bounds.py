@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Bounds on error and bytes: what is written keeps them; one that cannot be kept is refused with a value that does work."""
 
-import argparse
 import json
 import os
 import re
@@ -48,9 +47,7 @@ class Runs:
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--burin", required=True)
-    arguments = parser.parse_args()
+    arguments = harness.read_arguments()
     verdicts = harness.Verdicts()
     with harness.Scratch() as folder:
         runs = Runs(arguments, verdicts, folder)

@@ -1,5 +1,6 @@
 """Running burin and judging what it did. Shared by the scripts of this folder."""
 
+import argparse
 import os
 import resource
 import shutil
@@ -36,6 +37,13 @@ def run(burin, arguments, timeout=120, folder=None, environment=None, stdout=sub
         status, out, err = "timeout", expired.stdout or b"", expired.stderr or b""
     text = [(part or b"").decode("utf-8", "replace") for part in (out, err)]
     return Outcome(arguments, status, *text, time.monotonic() - begun)
+
+
+def read_arguments():
+    """The command line of a test that needs nothing but the program."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--burin", required=True)
+    return parser.parse_args()
 
 
 class Verdicts:

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """An output that is one of the files the command reads, under whatever name, is refused with 2 and stays as it was."""
 
-import argparse
 import os
 import shutil
 
@@ -20,9 +19,7 @@ def refuse(verdicts, burin, words, kept, what):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--burin", required=True)
-    arguments = parser.parse_args()
+    arguments = harness.read_arguments()
     verdicts = harness.Verdicts()
     with harness.Scratch() as folder:
         groove = inputs.write_inputs(folder)["groove.png"]

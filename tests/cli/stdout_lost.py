@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Standard output that takes nothing: every command ends with 4 and one line of error, and none leaves a file."""
 
-import argparse
 import os
 
 import harness
@@ -19,9 +18,7 @@ def closed_pipe():
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--burin", required=True)
-    arguments = parser.parse_args()
+    arguments = harness.read_arguments()
     if not os.path.exists("/dev/full"):
         harness.skip("/dev/full is not here")
     verdicts = harness.Verdicts()

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Flat maps with steps: what `check` finds by the evaluator and by the shader is the same."""
 
-import argparse
 import json
 import os
 
@@ -17,9 +16,7 @@ def figures(verdicts, burin, asset, path, more):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--burin", required=True)
-    arguments = parser.parse_args()
+    arguments = harness.read_arguments()
     verdicts = harness.Verdicts()
     with harness.Scratch() as folder:
         for name, data in inputs.flat_maps().items():

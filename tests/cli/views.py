@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """What people look at: the report is whole in itself and shows what was measured, the error map is the error."""
 
-import argparse
 import base64
 import html.parser
 import json
@@ -106,9 +105,7 @@ def check_page(verdicts, text, figures, side):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--burin", required=True)
-    arguments = parser.parse_args()
+    arguments = harness.read_arguments()
     verdicts = harness.Verdicts()
     with harness.Scratch() as folder:
         places = inputs.write_inputs(folder)
