@@ -139,6 +139,12 @@ struct Surroundings {
     double noise = 0.0;
 };
 
+// Whether another line lies `offset` texels beside a chain: another chain, or another turn of the same.
+bool is_beside(const Chain& chain, std::int32_t self, const Surroundings& around, Vec2 p, double offset) {
+    const auto owner = around.owner[around.lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))];
+    return owner != kNobody && (owner != self || std::fabs(offset) > chain.half_width + 2.5);
+}
+
 // One row per place along the chain, offsets -n..n steps of half a texel; the mean of both ends is subtracted, so that
 // a line that runs over soft or stepped ground still has one section.
 struct Rows {
@@ -165,8 +171,7 @@ Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& 
             bool disturbed = false;
             for (int k = -n; k <= n; ++k) {
                 const Vec2 q = p + normal * (k * 0.5);
-                const auto owner = around.owner[around.lattice.nearest(int(std::floor(q.x)), int(std::floor(q.y)))];
-                disturbed |= owner != kNobody && owner != self;
+                disturbed |= is_beside(chain, self, around, q, k * 0.5);
                 row[k + n] = sample(around.map, around.lattice, q);
             }
             if (alone && disturbed) continue;
@@ -280,11 +285,30 @@ std::size_t find_change(const Chain& chain, const Image& map, const Lattice& lat
     return at;
 }
 
-// A line with level ground far to both sides. A small square fills only the bottom of a wide line or the corner of an
-// area, and the ground between two lines looks like a line of the other sign: those are none.
+// How far from a chain, at half of its places, another one begins on the nearer side; at most `furthest`.
+double free_reach(const Chain& chain, std::int32_t self, const Surroundings& around, double furthest) {
+    std::vector<double> reaches;
+    for_each_place(chain, [&](Vec2 p, Vec2 normal) {
+        double reach = 0.0;
+        for (bool free = true; free && reach < furthest; reach += free ? 0.5 : 0.0)
+            for (const double offset : {-reach, reach})
+                free = free && !is_beside(chain, self, around, p + normal * offset, offset);
+        reaches.push_back(reach);
+    });
+    if (reaches.empty()) return 0.0;
+    const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
+    std::nth_element(reaches.begin(), middle, reaches.end());
+    return *middle;
+}
+
+// A line with level ground to both sides: far, or as far as the next line, if that leaves ground wider than the line. A
+// small square fills only the bottom of a wide line or the corner of an area, and the ground between two lines looks like a
+// line of the other sign, wider than they are: those are none.
 bool stands_alone(const Chain& chain, std::int32_t self, const Surroundings& around, double radius) {
     if (chain.half_width > 0.6 * radius || chain_length(chain) < 6.0 * chain.half_width + 8.0) return false;
-    const CrossSection section = measure_cross_section(chain, self, around, 3.0 * chain.half_width + 4.0);
+    const double far = 3.0 * chain.half_width + 4.0, reach = free_reach(chain, self, around, far);
+    if (reach < far && reach < std::max(chain.half_width + 2.0, 2.2 * chain.half_width)) return false;
+    const CrossSection section = measure_cross_section(chain, self, around, reach);
     return section.depth > 0.9 * chain.contrast && std::fabs(section.tilt) < 0.2 * section.depth &&
            section.explained > 0.93;
 }
