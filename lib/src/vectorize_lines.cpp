@@ -145,17 +145,45 @@ bool is_beside(const Chain& chain, std::int32_t self, const Surroundings& around
     return owner != kNobody && (owner != self || std::fabs(offset) > chain.half_width + 2.5);
 }
 
-// One row per place along the chain, offsets -n..n steps of half a texel; the mean of both ends is subtracted, so that
-// a line that runs over soft or stepped ground still has one section.
+// How far a chain is measured to its sides, texels.
+struct Reach {
+    double left = 0.0, right = 0.0;
+};
+
+// How far from a chain, at half of its places, the next one begins; at most `furthest`.
+Reach free_reach(const Chain& chain, std::int32_t self, const Surroundings& around, double furthest) {
+    std::vector<double> free[2];
+    for_each_place(chain, [&](Vec2 p, Vec2 normal) {
+        for (const int side : {0, 1}) {
+            const double sign = side == 0 ? -1.0 : 1.0;
+            double reach = 0.5;
+            while (reach < furthest && !is_beside(chain, self, around, p + normal * (sign * reach), reach)) reach += 0.5;
+            free[side].push_back(std::min(reach, furthest));
+        }
+    });
+    const auto median = [](std::vector<double>& values) {
+        if (values.empty()) return 0.0;
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    };
+    return {median(free[0]), median(free[1])};
+}
+
+// One row per place along the chain, offsets by steps of half a texel; the mean of both ends is subtracted, so that a line
+// that runs over soft or stepped ground still has one section.
 struct Rows {
+    int left = 0;                             // columns before the one at offset 0
     std::vector<std::vector<float>> columns;  // per offset
     std::vector<float> tilts;
 };
 
 // `alone`: only places where no other chain comes near.
-Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& around, int n, bool alone) {
+Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach, bool alone) {
     Rows rows;
-    rows.columns.resize(static_cast<std::size_t>(2 * n + 1));
+    rows.left = static_cast<int>(std::ceil(reach.left / 0.5));
+    const int right = static_cast<int>(std::ceil(reach.right / 0.5));
+    rows.columns.resize(static_cast<std::size_t>(rows.left + right + 1));
     std::vector<float> row(rows.columns.size());
     // Of a long chain some hundreds of places tell as much as all.
     const std::size_t stride = std::max<std::size_t>(1, chain.points.size() / 1000);
@@ -169,10 +197,10 @@ Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& 
         for (int piece = 0; piece < pieces; ++piece) {
             const Vec2 p = lerp(a, b, (piece + 0.5) / pieces);
             bool disturbed = false;
-            for (int k = -n; k <= n; ++k) {
+            for (int k = -rows.left; k <= right; ++k) {
                 const Vec2 q = p + normal * (k * 0.5);
                 disturbed |= is_beside(chain, self, around, q, k * 0.5);
-                row[k + n] = sample(around.map, around.lattice, q);
+                row[static_cast<std::size_t>(k + rows.left)] = sample(around.map, around.lattice, q);
             }
             if (alone && disturbed) continue;
             const float ground = 0.5f * (row.front() + row.back());
@@ -183,11 +211,10 @@ Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& 
     return rows;
 }
 
-CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const Surroundings& around, double reach) {
+CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach) {
     constexpr std::size_t kEnoughAlone = 4;
-    const int n = static_cast<int>(std::ceil(reach / 0.5));
-    Rows rows = sample_sections(chain, self, around, n, true);
-    if (rows.tilts.size() < kEnoughAlone) rows = sample_sections(chain, self, around, n, false);
+    Rows rows = sample_sections(chain, self, around, reach, true);
+    if (rows.tilts.size() < kEnoughAlone) rows = sample_sections(chain, self, around, reach, false);
     std::vector<float>& tilts = rows.tilts;
     std::vector<std::vector<float>>& columns = rows.columns;
     CrossSection section;
@@ -213,7 +240,7 @@ CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const 
         left += sum / static_cast<double>(column.size() - 2 * cut);
     }
     for (const double h : height) model += (h - mean) * (h - mean);
-    section.depth = std::fabs(height[static_cast<std::size_t>(n)] - 0.5 * (height.front() + height.back()));
+    section.depth = std::fabs(height[static_cast<std::size_t>(rows.left)] - 0.5 * (height.front() + height.back()));
     section.explained = model + left > 0.0 ? model / (model + left) : 0.0;
     section.wobble = 0.5 * left / std::max(1e-9, section.depth * section.depth);
     return section;
@@ -231,12 +258,16 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
     if (chain.half_width > kBroad && extent < 20.0 * chain.half_width) return false;
     // A thin line may have a rim of its own on one side: there the ground lies farther out.
     const double near = std::max(3.0, 1.6 * chain.half_width + 1.5);
-    for (const double reach : {near, 4.0 * near}) {
-        if (reach > near && chain.half_width > 1.5) return false;
+    for (const double furthest : {near, 4.0 * near}) {
+        if (furthest > near && chain.half_width > 1.5) return false;
+        // Where another line lies near, the ground is what is left between the two.
+        Reach reach = free_reach(chain, self, around, furthest);
+        reach.left = std::max(reach.left, chain.half_width + 1.0);
+        reach.right = std::max(reach.right, chain.half_width + 1.0);
         const CrossSection section = measure_cross_section(chain, self, around, reach);
         // A closing that does not span the line fills only a part of it: it is wider than it looks.
         if (chain.half_width > 2.0 && chain.contrast < 0.93 * section.depth) return false;
-        const double grain = 0.5 * (4.0 * reach + 1.0) * (noise / section.depth) * (noise / section.depth);
+        const double grain = 0.5 * (2.0 * (reach.left + reach.right) + 1.0) * (noise / section.depth) * (noise / section.depth);
         const double most_wobble = chain.half_width > kBroad ? 0.05 : 0.13;
         const bool straight_rims = chain.half_width < 2.5 || section.wobble - grain < most_wobble;
         if (section.depth > std::max(3.0 * noise, 0.012) && std::fabs(section.tilt) < 0.35 * section.depth &&
@@ -285,29 +316,15 @@ std::size_t find_change(const Chain& chain, const Image& map, const Lattice& lat
     return at;
 }
 
-// How far from a chain, at half of its places, another one begins on the nearer side; at most `furthest`.
-double free_reach(const Chain& chain, std::int32_t self, const Surroundings& around, double furthest) {
-    std::vector<double> reaches;
-    for_each_place(chain, [&](Vec2 p, Vec2 normal) {
-        double reach = 0.0;
-        for (bool free = true; free && reach < furthest; reach += free ? 0.5 : 0.0)
-            for (const double offset : {-reach, reach})
-                free = free && !is_beside(chain, self, around, p + normal * offset, offset);
-        reaches.push_back(reach);
-    });
-    if (reaches.empty()) return 0.0;
-    const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
-    std::nth_element(reaches.begin(), middle, reaches.end());
-    return *middle;
-}
-
 // A line with level ground to both sides: far, or as far as the next line, if that leaves ground wider than the line. A
 // small square fills only the bottom of a wide line or the corner of an area, and the ground between two lines looks like a
 // line of the other sign, wider than they are: those are none.
 bool stands_alone(const Chain& chain, std::int32_t self, const Surroundings& around, double radius) {
     if (chain.half_width > 0.6 * radius || chain_length(chain) < 6.0 * chain.half_width + 8.0) return false;
-    const double far = 3.0 * chain.half_width + 4.0, reach = free_reach(chain, self, around, far);
-    if (reach < far && reach < std::max(chain.half_width + 2.0, 2.2 * chain.half_width)) return false;
+    const double far = 3.0 * chain.half_width + 4.0;
+    const double least = std::min(far, std::max(chain.half_width + 2.0, 2.2 * chain.half_width));
+    const Reach reach = free_reach(chain, self, around, far);
+    if (std::min(reach.left, reach.right) < least) return false;
     const CrossSection section = measure_cross_section(chain, self, around, reach);
     return section.depth > 0.9 * chain.contrast && std::fabs(section.tilt) < 0.2 * section.depth &&
            section.explained > 0.93;
