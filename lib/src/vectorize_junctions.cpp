@@ -335,7 +335,7 @@ TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
             m[i][3] += row[i] * v;
         }
     }
-    const double long_enough = 2.0 * half_width + 6.0;
+    const double long_enough = 2.0 * half_width + 5.0;
     if (near.size() < 8 || length(near.front() - near.back()) < long_enough) m[2][2] += 1e12;  // straight
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
@@ -353,7 +353,7 @@ TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
 // The skeleton of a cap leads into one of its corners: the last points are put where the chain comes to from behind.
 void settle_free_end(std::vector<Vec2>& points, const Chain& chain, const Image& response, const Lattice& lattice) {
     if (points.size() < 2) return;
-    const double disturbed = chain.half_width + 1.0, span = std::max(8.0, 4.0 * chain.half_width);
+    const double disturbed = 1.5 * chain.half_width + 1.0, span = 4.0 * chain.half_width + 8.0;
     std::size_t last = points.size() - 1;
     while (last > 3 && length(points[last] - points.back()) < disturbed && length(points[last] - points[last - 1]) < kBridge) --last;
     std::vector<Vec2> near;
