@@ -250,31 +250,33 @@ constexpr double kBroad = 6.0;  // half-width in texels
 
 // A line has one section all along it, and the same ground on both sides. What fails this is the rim of a plateau or a
 // blob, which the step contours describe better; and so do they a wide line whose rims are ragged.
-bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) {
+bool has_one_section(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach) {
     const double noise = around.noise;
+    const CrossSection section = measure_cross_section(chain, self, around, reach);
+    // A closing that does not span the line fills only a part of it: it is wider than it looks.
+    if (chain.half_width > 2.0 && chain.contrast < 0.93 * section.depth) return false;
+    const double grain = 0.5 * (2.0 * (reach.left + reach.right) + 1.0) * (noise / section.depth) * (noise / section.depth);
+    const double most_wobble = chain.half_width > kBroad ? 0.05 : 0.13;
+    const bool straight_rims = chain.half_width < 2.5 || section.wobble - grain < most_wobble;
+    return section.depth > std::max(3.0 * noise, 0.012) && std::fabs(section.tilt) < 0.35 * section.depth &&
+           section.explained > 0.55 && straight_rims;
+}
+
+bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) {
     const double extent = chain_length(chain) + 2.0 * chain.half_width;
-    if (extent < 3.0 * chain.half_width + 3.0 || chain.contrast < 3.0 * noise) return false;
+    if (extent < 3.0 * chain.half_width + 3.0 || chain.contrast < 3.0 * around.noise) return false;
     // A short broad bar, or a broad piece of a net of joints, is an area with a rim.
     if (chain.half_width > kBroad && extent < 20.0 * chain.half_width) return false;
-    // A thin line may have a rim of its own on one side: there the ground lies farther out.
     const double near = std::max(3.0, 1.6 * chain.half_width + 1.5);
-    for (const double furthest : {near, 4.0 * near}) {
-        if (furthest > near && chain.half_width > 1.5) return false;
-        // Where another line lies near, the ground is what is left between the two.
-        Reach reach = free_reach(chain, self, around, furthest);
-        reach.left = std::max(reach.left, chain.half_width + 1.0);
-        reach.right = std::max(reach.right, chain.half_width + 1.0);
-        const CrossSection section = measure_cross_section(chain, self, around, reach);
-        // A closing that does not span the line fills only a part of it: it is wider than it looks.
-        if (chain.half_width > 2.0 && chain.contrast < 0.93 * section.depth) return false;
-        const double grain = 0.5 * (2.0 * (reach.left + reach.right) + 1.0) * (noise / section.depth) * (noise / section.depth);
-        const double most_wobble = chain.half_width > kBroad ? 0.05 : 0.13;
-        const bool straight_rims = chain.half_width < 2.5 || section.wobble - grain < most_wobble;
-        if (section.depth > std::max(3.0 * noise, 0.012) && std::fabs(section.tilt) < 0.35 * section.depth &&
-            section.explained > 0.55 && straight_rims)
-            return true;
-    }
-    return false;
+    if (has_one_section(chain, self, around, {near, near})) return true;
+    // Where another line lies nearer, the ground is what is left between the two.
+    const Reach free = free_reach(chain, self, around, near);
+    const double least = chain.half_width + 1.0;
+    if (std::min(free.left, free.right) < near &&
+        has_one_section(chain, self, around, {std::max(least, free.left), std::max(least, free.right)}))
+        return true;
+    // A thin line may have a rim of its own on one side: there the ground lies farther out.
+    return chain.half_width <= 1.5 && has_one_section(chain, self, around, {4.0 * near, 4.0 * near});
 }
 
 float sign_of(ChainKind kind) { return kind == ChainKind::groove ? 1.0f : -1.0f; }
@@ -362,16 +364,60 @@ std::vector<Chain> keep_lines(const Chain& whole, std::int32_t self, const Surro
     return kept;
 }
 
-std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const Image& map, const Lattice& lattice, double noise,
-                              double least_energy, const LineScale& scale) {
-    const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
-    const Surroundings around{map, lattice, owner, noise};
-    std::vector<std::vector<Chain>> parts(chains.size());
-    for_each_piece(chains.size(), lattice.threads, [&](std::size_t c) {
-        parts[c] = keep_lines(chains[c], static_cast<std::int32_t>(c), around, least_energy, scale);
+// The part of the mask that a chain lies in.
+std::int64_t part_of(const Chain& chain, const std::vector<std::uint8_t>& mask, const Parts& parts, const Lattice& lattice) {
+    for (const Vec2 p : chain.points) {
+        const int texel = lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
+        if (mask[texel]) return parts.runs[parts.find(texel % lattice.width, texel / lattice.width)].part;
+    }
+    return -1;
+}
+
+// Lines that hang together are found together: without the others, those that wait for a wider look would be torn. With a
+// line wait all that share a node with it, and the whole shape when much of it waits.
+void wait_with_others(const std::vector<Chain>& chains, const std::vector<std::int64_t>& shape, const Lattice& lattice,
+                      std::vector<std::uint8_t>& waits) {
+    constexpr double kMuch = 0.25;
+    std::map<std::int64_t, std::pair<double, double>> energy;  // per shape: of all lines, of those that wait
+    std::map<int, std::vector<std::size_t>> at_node;           // by the node's texel
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        energy[shape[c]].first += chain_energy(chains[c]);
+        if (waits[c]) energy[shape[c]].second += chain_energy(chains[c]);
+        const auto add = [&](Vec2 p) {
+            at_node[lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))].push_back(c);
+        };
+        if (chains[c].start_tie == EndTie::node) add(chains[c].points.front());
+        if (chains[c].end_tie == EndTie::node) add(chains[c].points.back());
+    }
+    for (std::size_t c = 0; c < chains.size(); ++c)
+        if (energy[shape[c]].second > kMuch * energy[shape[c]].first) waits[c] = 1;
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const auto& [texel, touching] : at_node) {
+            const auto waiting = std::count_if(touching.begin(), touching.end(), [&](std::size_t c) { return waits[c] != 0; });
+            if (waiting == 0 || waiting == static_cast<std::ptrdiff_t>(touching.size())) continue;
+            for (const std::size_t c : touching) waits[c] = 1;
+            changed = true;
+        }
+    }
+}
+
+std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const std::vector<std::uint8_t>& mask, const Parts& shapes,
+                              const Surroundings& around, double least_energy, const LineScale& scale) {
+    std::vector<std::vector<Chain>> kept_of(chains.size());
+    std::vector<std::int64_t> shape(chains.size());
+    std::vector<std::uint8_t> waits(chains.size(), 0);
+    const bool is_widest = scale.radius == scale.widest;
+    for_each_piece(chains.size(), around.lattice.threads, [&](std::size_t c) {
+        kept_of[c] = keep_lines(chains[c], static_cast<std::int32_t>(c), around, least_energy, scale);
+        shape[c] = part_of(chains[c], mask, shapes, around.lattice);
+        waits[c] = !is_widest && kept_of[c].empty() && chain_energy(chains[c]) >= least_energy &&
+                   is_supported(chains[c]) && is_line(chains[c], static_cast<std::int32_t>(c), around);
     });
+    wait_with_others(chains, shape, around.lattice, waits);
     std::vector<Chain> kept;
-    for (std::vector<Chain>& some : parts) std::move(some.begin(), some.end(), std::back_inserter(kept));
+    for (std::size_t c = 0; c < chains.size(); ++c)
+        if (!waits[c]) std::move(kept_of[c].begin(), kept_of[c].end(), std::back_inserter(kept));
     return kept;
 }
 
@@ -561,7 +607,8 @@ std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const
     measure_strands(skeleton, whole, lattice);
     const std::vector<Chain> all = join_strands(skeleton, whole, lattice, kind);
     restored = {};
-    std::vector<Chain> chains = keep_lines(all, map, lattice, noise, 2e-5 * energy, scale);
+    const std::vector<std::int32_t> owner = claim_texels(all, lattice);
+    std::vector<Chain> chains = keep_lines(all, mask, parts, {map, lattice, owner, noise}, 2e-5 * energy, scale);
     if (scale.radius == scale.widest) drop_partial_shapes(chains, mask, parts, lattice);
     if (!chains.empty()) erase_lines(map, response, lattice, chains, kind, scale, least, erased);
     return chains;
