@@ -507,6 +507,32 @@ void for_each_texel_across(Vec2 p, Vec2 normal, const Lattice& lattice, int reac
     }
 }
 
+// How far a line reaches beyond the middle of a place of its chain: round the end of a line, and out to the tip of a corner.
+// 0: nowhere but across.
+double reach_round(const Chain& chain, std::ptrdiff_t i) {
+    constexpr double kLeastTurn = 0.5;  // radians
+    const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(chain.points.size());
+    if (!chain.closed && (i == 0 || i + 1 == count)) return 1.5 * chain.half_width + 2.0;
+    const auto point = [&](std::ptrdiff_t k) {
+        if (!chain.closed) return chain.points[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k, 0, count - 1))];
+        if (k < 0) return chain.points[static_cast<std::size_t>(k + count)] - chain.winding;
+        return k < count ? chain.points[static_cast<std::size_t>(k)] : chain.points[static_cast<std::size_t>(k - count)] + chain.winding;
+    };
+    // A corner that is cut off turns by and by.
+    const Vec2 p = point(i);
+    const double baseline = 2.0 * chain.half_width + 2.0;
+    const auto neighbour = [&](std::ptrdiff_t step) {
+        std::ptrdiff_t k = i + step;
+        while (std::abs(k - i) < count / 2 && length(point(k) - p) < baseline) k += step;
+        return point(k);
+    };
+    const Vec2 a = neighbour(-1), b = neighbour(1);
+    if (a == p || b == p) return 0.0;
+    const double turn = std::acos(std::clamp(dot(unit(p - a), unit(b - p)), -1.0, 1.0));
+    if (turn < kLeastTurn) return 0.0;
+    return std::min(chain.half_width / std::max(0.25, std::cos(0.5 * turn)) + 2.0, 4.0 * chain.half_width + 2.0);
+}
+
 // The texels of the lines, each once.
 std::vector<int> covered_texels(const Image& response, const Lattice& lattice, const std::vector<Chain>& chains,
                                 const std::vector<std::int32_t>& owner) {
@@ -517,16 +543,20 @@ std::vector<int> covered_texels(const Image& response, const Lattice& lattice, c
         covered[texel] = 1;
     };
     for (const Chain& chain : chains) {
-        const int reach = static_cast<int>(std::ceil(1.5 * chain.half_width + 2.0));
+        // Beyond the place itself only where it must be: the next one may cross something.
         for_each_place(chain, [&](Vec2 p, Vec2 normal) {
             if (crosses_unknown(chain, p, normal, response, lattice, owner)) return;
-            const bool at_end = !chain.closed && (p == chain.points.front() || p == chain.points.back());
-            // Beyond the place itself only at the ends: the next one may cross something.
-            if (at_end)
-                for_each_texel_near(p, lattice, reach, cover);
-            else
-                for_each_texel_across(p, normal, lattice, reach, cover);
+            for_each_texel_across(p, normal, lattice, static_cast<int>(std::ceil(1.5 * chain.half_width + 2.0)), cover);
         });
+        for (std::size_t i = 0; i < chain.points.size(); ++i) {
+            const double reach = reach_round(chain, static_cast<std::ptrdiff_t>(i));
+            const Vec2 p = chain.points[i], other = chain.points[i == 0 ? 1 : i - 1];
+            if (reach == 0.0 || p == other) continue;
+            // Beside a corner lies its own tip.
+            const bool is_end = !chain.closed && (i == 0 || i + 1 == chain.points.size());
+            if (!is_end || !crosses_unknown(chain, p, normal_of(unit(p - other)), response, lattice, owner))
+                for_each_texel_near(p, lattice, static_cast<int>(std::ceil(reach)), cover);
+        }
     }
     return texels;
 }
