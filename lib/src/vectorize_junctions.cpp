@@ -357,94 +357,6 @@ struct Builder {
     }
 };
 
-// The way a chain takes near its end: an arc, fitted to the points that the cap does not disturb.
-struct TailCurve {
-    Vec2 origin, along;
-    double curvature = 0.0;  // to the left
-    double turn = 0.0;       // of the points it was fitted to, radians
-    double misfit = 0.0;     // greatest distance of these points from it
-
-    Vec2 at(double s) const {
-        const double angle = curvature * s;
-        if (std::fabs(angle) < 1e-4) return origin + along * s + normal_of(along) * (0.5 * curvature * s * s);
-        return origin + along * (std::sin(angle) / curvature) + normal_of(along) * ((1.0 - std::cos(angle)) / curvature);
-    }
-};
-
-// `near`: points from the end backwards. Least squares for a parabola over their chord, which an arc that turns little is.
-TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
-    const Vec2 origin = near.front();
-    const double chord = length(near.front() - near.back());
-    const Vec2 rough = unit(near.front() - near.back()), left = normal_of(rough);
-    double m[3][4] = {};
-    for (const Vec2 p : near) {
-        const double s = dot(p - origin, rough), v = dot(p - origin, left), row[3] = {1.0, s, s * s};
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) m[i][j] += row[i] * row[j];
-            m[i][3] += row[i] * v;
-        }
-    }
-    const double long_enough = 2.0 * half_width + 5.0;
-    if (near.size() < 8 || chord < std::min(long_enough, 0.9 * static_cast<double>(near.size()))) m[2][2] += 1e12;  // straight
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) {
-            if (k == i || std::fabs(m[i][i]) < 1e-12) continue;
-            const double f = m[k][i] / m[i][i];
-            for (int j = i; j < 4; ++j) m[k][j] -= f * m[i][j];
-        }
-    const auto solved = [&](int i) { return std::fabs(m[i][i]) < 1e-12 ? 0.0 : m[i][3] / m[i][i]; };
-    const double a = solved(0), b = solved(1), c = solved(2);
-    const double tightest = 1.0 / std::max(3.0, half_width);
-    const double curvature = std::clamp(2.0 * c / std::pow(1.0 + b * b, 1.5), -tightest, tightest);
-    TailCurve tail{origin + left * a, unit(rough + left * b), curvature, std::fabs(curvature) * chord};
-    for (const Vec2 p : near) {
-        const double s = dot(p - origin, rough);
-        tail.misfit = std::max(tail.misfit, std::fabs(dot(p - origin, left) - a - b * s - c * s * s));
-    }
-    return tail;
-}
-
-// The visible end of a line lies where its response falls to half; a hip cap puts the path's end half a width before.
-// The skeleton of a cap leads into one of its corners: the last points are put where the chain comes to from behind.
-void settle_free_end(std::vector<Vec2>& points, const Chain& chain, const Image& response, const Lattice& lattice) {
-    if (points.size() < 2) return;
-    const double disturbed = 1.5 * chain.half_width + 1.0, span = 4.0 * chain.half_width + 8.0;
-    std::size_t last = points.size() - 1;
-    while (last > 3 && length(points[last] - points.back()) < disturbed && length(points[last] - points[last - 1]) < kBridge) --last;
-    // Of a tight curve, or behind a corner, fewer points tell more: a parabola is an arc only as long as it turns little.
-    constexpr double kMostTurn = 1.2, kMostMisfit = 0.3;
-    TailCurve tail;
-    for (double reach = span; reach == span || ((tail.turn > kMostTurn || tail.misfit > kMostMisfit) && reach > 4.0);
-         reach *= 0.75) {
-        std::vector<Vec2> near;
-        for (std::size_t k = last + 1; k-- > 0;) {
-            if (near.size() >= 2 && length(points[k] - near.back()) > kBridge) break;
-            if (near.size() >= 4 && length(points[k] - near.front()) > reach) break;
-            near.push_back(points[k]);
-        }
-        if (near.size() < 2 || near.front() == near.back()) return;
-        tail = fit_tail(near, chain.half_width);
-    }
-    const double half = 0.5 * chain.contrast, furthest = length(points.back() - points[last]) + 4.0 * chain.half_width + 8.0;
-    double t = 0.0;
-    while (t < furthest && sample(response, lattice, tail.at(t)) >= half) t += 0.25;
-    const double end = t - 0.125 - chain.half_width;
-    points.resize(last + 1);
-    while (points.size() > 2 && dot(points.back() - tail.at(end), tail.along) > -0.25) points.pop_back();
-    for (double s = 1.0; s < end - 0.5; s += 1.0) points.push_back(tail.at(s));
-    if (end > -disturbed) points.push_back(tail.at(end));
-}
-
-void settle_ends(Chain& chain, const Image& response, const Lattice& lattice) {
-    if (chain.closed) return;
-    if (chain.end_tie == EndTie::free) settle_free_end(chain.points, chain, response, lattice);
-    if (chain.start_tie == EndTie::free) {
-        std::reverse(chain.points.begin(), chain.points.end());
-        settle_free_end(chain.points, chain, response, lattice);
-        std::reverse(chain.points.begin(), chain.points.end());
-    }
-}
-
 }  // namespace
 
 std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice, ChainKind kind) {
@@ -482,9 +394,9 @@ std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const
         add(std::move(chain));
     }
     for (Chain& chain : chains) {
+        if (chain.closed) chain.winding = lattice.shift_to(chain.points.front() - chain.points.back(), {0.0, 0.0});
+        sharpen_corners(chain);
         settle_ends(chain, response, lattice);
-        if (chain.closed)
-            chain.winding = lattice.shift_to(chain.points.front() - chain.points.back(), {0.0, 0.0});
     }
     return chains;
 }
