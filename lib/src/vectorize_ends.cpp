@@ -7,6 +7,12 @@
 namespace burin::vectorizing {
 namespace {
 
+bool lies_straight(const std::vector<Vec2>& points, double most_misfit) {
+    const LineFit line = fit_line(points);
+    return std::all_of(points.begin(), points.end(),
+                       [&](Vec2 p) { return std::fabs(cross(line.direction, p - line.mean)) < most_misfit; });
+}
+
 // The points of a chain that lie straight on one side of a corner.
 struct Side {
     std::ptrdiff_t nearest = 0;  // index of the point next to the corner
@@ -31,9 +37,7 @@ Side fit_side(const std::vector<Vec2>& points, std::ptrdiff_t i, std::ptrdiff_t 
     if (near.size() < 4 || length(near.back() - near.front()) < 0.6 * span) return side;
     side.line = fit_line(near);
     if (dot(side.line.direction, near.front() - near.back()) < 0.0) side.line.direction = -side.line.direction;
-    side.is_straight = std::all_of(near.begin(), near.end(), [&](Vec2 p) {
-        return std::fabs(cross(side.line.direction, p - side.line.mean)) < kMostMisfit;
-    });
+    side.is_straight = lies_straight(near, kMostMisfit);
     return side;
 }
 
@@ -81,6 +85,7 @@ struct TailCurve {
 
 // `near`: points from the end backwards. Least squares for a parabola over their chord, which an arc that turns little is.
 TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
+    constexpr double kStraight = 0.1;  // texels, by which the points of a straight line may wobble
     const Vec2 origin = near.front();
     const double chord = length(near.front() - near.back());
     const Vec2 rough = unit(near.front() - near.back()), left = normal_of(rough);
@@ -92,8 +97,7 @@ TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
             m[i][3] += row[i] * v;
         }
     }
-    const double long_enough = 2.0 * half_width + 5.0;
-    if (near.size() < 8 || chord < std::min(long_enough, 0.9 * static_cast<double>(near.size()))) m[2][2] += 1e12;  // straight
+    if (near.size() < 8 || lies_straight(near, kStraight)) m[2][2] += 1e12;
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
             if (k == i || std::fabs(m[i][i]) < 1e-12) continue;
@@ -116,7 +120,7 @@ TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
 // The skeleton of a cap leads into one of its corners: the last points are put where the chain comes to from behind.
 void settle_free_end(std::vector<Vec2>& points, const Chain& chain, const Image& response, const Lattice& lattice) {
     if (points.size() < 2) return;
-    const double disturbed = 1.5 * chain.half_width + 1.0, span = 4.0 * chain.half_width + 8.0;
+    const double disturbed = chain.half_width + 1.0, span = 4.0 * chain.half_width + 8.0;
     std::size_t last = points.size() - 1;
     while (last > 3 && length(points[last] - points.back()) < disturbed && length(points[last] - points[last - 1]) < kBridge) --last;
     // Of a tight curve, or behind a corner, fewer points tell more: a parabola is an arc only as long as it turns little.
