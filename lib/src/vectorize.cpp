@@ -96,9 +96,9 @@ void find_features(const Image& source, Traced& traced) {
         }
     }
     if (!grooves.empty())
-        tie_lines(grooves, restored_response(map, erased_grooves, wide, ChainKind::groove, radius, noise), wide);
+        tie_lines(grooves, ridges, restored_response(map, erased_grooves, wide, ChainKind::groove, radius, noise), wide);
     if (!ridges.empty())
-        tie_lines(ridges, restored_response(map, erased_ridges, wide, ChainKind::ridge, radius, noise), wide);
+        tie_lines(ridges, grooves, restored_response(map, erased_ridges, wide, ChainKind::ridge, radius, noise), wide);
     traced.lines = std::move(grooves);
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
     for (const ChainKind kind : {ChainKind::groove, ChainKind::ridge})

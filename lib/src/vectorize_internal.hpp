@@ -189,7 +189,8 @@ std::vector<Chain> trace_spots(Image& map, const Lattice& lattice, ChainKind kin
                                double energy);
 
 // Joins and ties the ends of all lines of one kind by the response of the map that has them in it: the two below.
-void tie_lines(std::vector<Chain>& chains, const Image& response, const Lattice& lattice);
+// `others`: the lines of the other kind, which may hide where a line goes on.
+void tie_lines(std::vector<Chain>& chains, const std::vector<Chain>& others, const Image& response, const Lattice& lattice);
 
 // Total least squares line through at least one point.
 struct LineFit {
@@ -197,9 +198,10 @@ struct LineFit {
 };
 LineFit fit_line(const std::vector<Vec2>& points);
 
-// Ends of two chains that continue each other, with the response (see trace_lines) shown in between, make one chain: a
-// line that crosses another at a small angle comes in two pieces.
-void join_facing_ends(std::vector<Chain>& chains, const Image& response, const Lattice& lattice);
+// Ends of two chains that continue each other, with the response (see trace_lines) shown or hidden in between, make one
+// chain: a line that crosses another at a small angle comes in two pieces, and so does a ridge that a groove cuts.
+void join_facing_ends(std::vector<Chain>& chains, const Image& response, const std::vector<std::uint8_t>& hidden,
+                      const Lattice& lattice);
 
 // Ends that stop just before, in, or just behind another chain are T ends on it, where the response (see trace_lines)
 // shows no gap between the two.

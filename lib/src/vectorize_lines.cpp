@@ -128,12 +128,15 @@ void for_each_texel_across(Vec2 p, Vec2 normal, const Lattice& lattice, int reac
     }
 }
 
+// How far to its sides a line takes texels.
+double covered_reach(const Chain& chain) { return 1.5 * chain.half_width + 2.0; }
+
 // How far a line reaches beyond the middle of a place of its chain: round the end of a line, and out to the tip of a corner.
 // 0: nowhere but across.
 double reach_round(const Chain& chain, std::ptrdiff_t i) {
     constexpr double kLeastTurn = 0.5;  // radians
     const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(chain.points.size());
-    if (!chain.closed && (i == 0 || i + 1 == count)) return 1.5 * chain.half_width + 2.0;
+    if (!chain.closed && (i == 0 || i + 1 == count)) return covered_reach(chain);
     const auto point = [&](std::ptrdiff_t k) {
         if (!chain.closed) return chain.points[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k, 0, count - 1))];
         if (k < 0) return chain.points[static_cast<std::size_t>(k + count)] - chain.winding;
@@ -167,7 +170,7 @@ std::vector<int> covered_texels(const Image& response, const Lattice& lattice, c
         // Beyond the place itself only where it must be: the next one may cross something.
         for_each_place(chain, [&](Vec2 p, Vec2 normal) {
             if (crosses_unknown(chain, p, normal, response, lattice, owner)) return;
-            for_each_texel_across(p, normal, lattice, static_cast<int>(std::ceil(1.5 * chain.half_width + 2.0)), cover);
+            for_each_texel_across(p, normal, lattice, static_cast<int>(std::ceil(covered_reach(chain))), cover);
         });
         for (std::size_t i = 0; i < chain.points.size(); ++i) {
             const double reach = reach_round(chain, static_cast<std::ptrdiff_t>(i));
@@ -264,8 +267,15 @@ std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const
     return chains;
 }
 
-void tie_lines(std::vector<Chain>& chains, const Image& response, const Lattice& lattice) {
-    join_facing_ends(chains, response, lattice);
+void tie_lines(std::vector<Chain>& chains, const std::vector<Chain>& others, const Image& response, const Lattice& lattice) {
+    std::vector<std::uint8_t> hidden(static_cast<std::size_t>(lattice.size()), 0);
+    for (const Chain& other : others) {
+        const int reach = static_cast<int>(std::ceil(covered_reach(other))) + 1;
+        for_each_place(other, [&](Vec2 p, Vec2 normal) {
+            for_each_texel_across(p, normal, lattice, reach, [&](int texel, Vec2) { hidden[texel] = 1; });
+        });
+    }
+    join_facing_ends(chains, response, hidden, lattice);
     extend_to_lines(chains, response, lattice);
 }
 

@@ -57,8 +57,8 @@ EndLine fit_end_line(const Chain& chain, std::uint32_t index, bool at_start) {
 
 class EndJoiner {
   public:
-    EndJoiner(std::vector<Chain>& chains, const Image& response, const Lattice& lattice)
-        : chains_(chains), response_(response), lattice_(lattice) {}
+    EndJoiner(std::vector<Chain>& chains, const Image& response, const std::vector<std::uint8_t>& hidden, const Lattice& lattice)
+        : chains_(chains), response_(response), hidden_(hidden), lattice_(lattice) {}
 
     void run() {
         std::vector<EndLine> ends;
@@ -98,24 +98,43 @@ class EndJoiner {
         const Vec2 between = b.foot + lattice_.shift_to(b.foot, a.foot) - a.foot;
         const double gap = length(between);
         if (gap > 8.0 * wide + 8.0 || wide + 0.5 > 1.3 * (narrow + 0.5) || high > 1.4 * low) return 2.0;
+        if (gap == 0.0 || dot(between, a.outward) < 0.0 || !is_shown(a, between)) return 2.0;
+        return std::min(straight_cost(a, b, between, 0.25 * wide + 0.5 + 0.04 * gap), bent_cost(a, b, between));
+    }
+
+    static double straight_cost(const EndLine& a, const EndLine& b, Vec2 between, double allowed) {
         const double turn = std::acos(std::clamp(-dot(a.outward, b.outward), -1.0, 1.0));
         const double offset = std::max(std::fabs(cross(a.outward, between)), std::fabs(cross(b.outward, between)));
-        const double allowed = 0.25 * wide + 0.5 + 0.04 * gap;
-        if (turn > 0.3 || offset > allowed || dot(between, a.outward) < 0.0 || !is_shown(a, between)) return 2.0;
-        return 0.5 * turn / 0.3 + 0.5 * offset / allowed;
+        return turn > 0.3 || offset > allowed ? 2.0 : 0.5 * turn / 0.3 + 0.5 * offset / allowed;
+    }
+
+    // An arc that another line hides in the middle turns on both sides of it by the same angle.
+    double bent_cost(const EndLine& a, const EndLine& b, Vec2 between) const {
+        constexpr double kMostTurn = 1.2, kMostDifference = 0.15;  // radians
+        if (!hidden_[texel_at(a.foot + between * 0.5)]) return 2.0;
+        const auto angle = [](Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); };
+        const double first = angle(a.outward, between), second = angle(between, -b.outward);
+        const double difference = std::fabs(first - second);
+        if (std::fabs(first + second) > kMostTurn || difference > kMostDifference) return 2.0;
+        return 0.5 + 0.5 * difference / kMostDifference;
+    }
+
+    int texel_at(Vec2 p) const {
+        return lattice_.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
     }
 
     bool is_shown(const EndLine& a, Vec2 between) const {
         const int steps = static_cast<int>(std::ceil(2.0 * length(between)));
-        for (int k = 0; k <= steps; ++k)
-            if (sample(response_, lattice_, a.foot + between * (double(k) / std::max(1, steps))) < 0.5 * chains_[a.chain].contrast)
-                return false;
+        for (int k = 0; k <= steps; ++k) {
+            const Vec2 p = a.foot + between * (double(k) / std::max(1, steps));
+            if (!hidden_[texel_at(p)] && sample(response_, lattice_, p) < 0.5 * chains_[a.chain].contrast) return false;
+        }
         return true;
     }
 
     bool join(const EndLine& a, const EndLine& b) {
         const std::uint32_t first = part_of_[a.chain], second = part_of_[b.chain];
-        if (first == second) return false;
+        if (first == second) return close(chains_[first], ends_[first].back == id_of(a) ? a : b, ends_[first].back == id_of(a) ? b : a);
         Chain& p = chains_[first];
         Chain& q = chains_[second];
         if (ends_[first].back != id_of(a)) turn(first);
@@ -136,6 +155,17 @@ class EndJoiner {
         return true;
     }
 
+    bool close(Chain& chain, const EndLine& back, const EndLine& front) {
+        drop_beyond(chain.points, back);
+        std::reverse(chain.points.begin(), chain.points.end());
+        drop_beyond(chain.points, front);
+        std::reverse(chain.points.begin(), chain.points.end());
+        chain.closed = true;
+        chain.start_tie = chain.end_tie = EndTie::free;
+        chain.winding = lattice_.shift_to(chain.points.front() - chain.points.back(), {0.0, 0.0});
+        return true;
+    }
+
     static std::uint32_t id_of(const EndLine& end) { return 2 * end.chain + (end.at_start ? 0 : 1); }
 
     void turn(std::uint32_t part) {
@@ -152,6 +182,7 @@ class EndJoiner {
 
     std::vector<Chain>& chains_;
     const Image& response_;
+    const std::vector<std::uint8_t>& hidden_;
     const Lattice& lattice_;
     std::vector<std::uint32_t> part_of_;  // where a chain's points are after joining
     struct Ends {
@@ -162,8 +193,9 @@ class EndJoiner {
 
 }  // namespace
 
-void join_facing_ends(std::vector<Chain>& chains, const Image& response, const Lattice& lattice) {
-    EndJoiner(chains, response, lattice).run();
+void join_facing_ends(std::vector<Chain>& chains, const Image& response, const std::vector<std::uint8_t>& hidden,
+                      const Lattice& lattice) {
+    EndJoiner(chains, response, hidden, lattice).run();
 }
 
 namespace {
