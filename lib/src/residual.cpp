@@ -183,7 +183,7 @@ std::size_t welcome_texels(const Scene& scene, const ResidualOptions& options) {
 }
 
 std::optional<Coded> choose(const Scene& scene, const ResidualOptions& options, double error_without) {
-    constexpr double kNearBest = 1.05, kNeededGain = 0.95, kWelcomeGain = 0.7;
+    constexpr double kNearBest = 1.05, kNeededGain = 0.05;
     const bool needed = error_without > options.tolerance;
     const double enough = needed ? options.tolerance : options.unneeded;
     std::vector<Coded> tried;
@@ -196,8 +196,8 @@ std::optional<Coded> choose(const Scene& scene, const ResidualOptions& options, 
         least = std::min(least, tried.back().error);
         if (least <= enough) break;
     }
-    if (least > error_without * (needed ? kNeededGain : kWelcomeGain)) return std::nullopt;
-    return first_within(tried, std::max(enough, least * kNearBest));
+    if (least > error_without * (1.0 - (needed ? kNeededGain : options.worthwhile))) return std::nullopt;
+    return first_within(tried, least <= enough ? enough : least * kNearBest);
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ namespace burin {
 struct ResidualOptions {
     double tolerance = 4.5;  // RMS angle that must be kept, degrees, [0, 90]
     double unneeded = 1.0;   // paths that come as near as this need no residual, degrees, [0, 90]
+    // Share of the error that a residual must take away where the paths keep the tolerance, [0, 1].
+    double worthwhile = 0.2;
     // Most texels; sides are those of the map divided by 1, 2, 4, ..., and at most 4096. 0: no residual.
     std::size_t most_texels = static_cast<std::size_t>(-1);
     int threads = 0;  // 0: as many as the machine has; the result does not depend on it
@@ -48,7 +50,7 @@ struct Residual {
 // Ensures: where the paths alone err by more than the tolerance, the smallest size that keeps it, or, where none does, the
 // smallest that comes within a twentieth of the best one; no residual where that takes less than a twentieth of the error
 // away. Where the paths keep the tolerance but are not as near as `unneeded`: by the same rule, a size of at most 1/64 of
-// the map's texels that takes at least 30 % of the error away. A map equal to its reconstruction gives none.
+// the map's texels, if that is worthwhile. A map equal to its reconstruction gives none.
 // Equal input gives equal bytes, whatever the number of threads. Fails as encode_png.
 // Cost: some 30 ns a texel and thread, and 6 bytes of memory a texel (16 where sides may be those of the map); slopes are
 // fitted by least squares, weighted by how far they turn a normal.
