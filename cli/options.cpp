@@ -65,7 +65,7 @@ bool parse_numbers(const std::string& text, char separator, std::vector<double>&
 
 std::string plain(double value) {
     char text[32];
-    const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
+    const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 8);
     return std::string(text, result.ptr);
 }
 
@@ -267,7 +267,8 @@ std::string option_line(const OptionSpec& spec) {
     left += left.size() < 30 ? std::string(30 - left.size(), ' ') : "  ";
     std::string notes;
     if (spec.kind != OptionKind::flag && spec.kind != OptionKind::text) notes += range_text(spec);
-    if (!spec.fallback.empty()) notes += (notes.empty() ? "" : "; ") + ("default " + with_unit(spec, spec.fallback));
+    const bool named = spec.kind == OptionKind::choice_or_integer;
+    if (!spec.fallback.empty()) notes += (notes.empty() ? "" : "; ") + ("default " + (named ? spec.fallback : with_unit(spec, spec.fallback)));
     if (spec.required) notes += notes.empty() ? "required" : "; required";
     return left + spec.help + (notes.empty() ? "" : " [" + notes + "]") + "\n";
 }
