@@ -200,7 +200,7 @@ void add_residual(const Residual* residual, Page& page) {
         page.add("<p>No residual normal map: none is needed, or none that is allowed helps.</p>");
         return;
     }
-    page.add("<div class=\"overview\">");
+    page.add("<div class=\"overview\" style=\"max-width:690px\">");
     page.add(figure(picture, "residual normal map: what the paths leave out", "",
                     ", " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " texels, " +
                         decimal(static_cast<double>(residual->png.size()) / 1024.0, 1) + " KiB, a full channel is a slope of " +
