@@ -91,8 +91,10 @@ struct Coded {
     double error = 0.0;
 };
 
-std::uint8_t code_of(float part) {
-    return static_cast<std::uint8_t>(std::lround((std::clamp(part, -1.0f, 1.0f) + 1.0f) * 127.5f));
+// Every `step`th code, counted from that next to level.
+std::uint8_t code_of(float part, int step = 1) {
+    const long code = 127 + step * std::lround((std::clamp(part, -1.0f, 1.0f) * 127.5f + 0.5f) / static_cast<float>(step));
+    return static_cast<std::uint8_t>(std::clamp(code, 0L, 255L));
 }
 
 float value_of(std::uint8_t code) { return static_cast<float>(code) / 127.5f - 1.0f; }
@@ -123,12 +125,11 @@ float best_scale(const SlopeGrid& grid) {
 }
 
 // Codes the slopes, and puts in their place what the codes stand for.
-Coded encode(SlopeGrid& grid) {
-    const float scale = best_scale(grid);
+Coded encode(SlopeGrid& grid, float scale, int step = 1) {
     Coded coded{{grid.width, grid.height, {}}, static_cast<double>(scale)};
     coded.picture.texels.reserve(grid.slopes.size() * 4);
     for (Slope& slope : grid.slopes) {
-        const std::uint8_t red = code_of(-slope.x / scale), green = code_of(slope.y / scale);
+        const std::uint8_t red = code_of(-slope.x / scale, step), green = code_of(slope.y / scale, step);
         coded.picture.texels.insert(coded.picture.texels.end(), {red, green, 255, 255});
         slope = {-value_of(red) * scale, value_of(green) * scale};
     }
@@ -182,6 +183,18 @@ std::size_t welcome_texels(const Scene& scene, const ResidualOptions& options) {
     return std::min(options.most_texels, scene.map.texels.size() / 64);
 }
 
+// A picture of the map's own size holds grain, which does not compress: codes as coarse as the error may be spare bytes.
+void coarsen(const Scene& scene, Fields& fields, double error, Coded& coded) {
+    for (const int step : {16, 8, 4, 2}) {
+        SlopeGrid grid = fields.fit(0);
+        Coded trial = encode(grid, static_cast<float>(coded.scale), step);
+        trial.error = normal_error(scene, &grid);
+        if (trial.error > error) continue;
+        coded = std::move(trial);
+        return;
+    }
+}
+
 std::optional<Coded> choose(const Scene& scene, const ResidualOptions& options, double error_without) {
     constexpr double kNearBest = 1.05, kNeededGain = 0.05;
     const bool needed = error_without > options.tolerance;
@@ -191,8 +204,9 @@ std::optional<Coded> choose(const Scene& scene, const ResidualOptions& options, 
     double least = error_without;
     for (const int halvings : allowed_sizes(scene.map, needed ? options.most_texels : welcome_texels(scene, options))) {
         SlopeGrid grid = fields.fit(halvings);
-        tried.push_back(encode(grid));
+        tried.push_back(encode(grid, best_scale(grid)));
         tried.back().error = normal_error(scene, &grid);
+        if (halvings == 0) coarsen(scene, fields, options.tolerance / 2.0, tried.back());
         least = std::min(least, tried.back().error);
         if (least <= enough) break;
     }

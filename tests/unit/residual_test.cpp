@@ -94,7 +94,11 @@ TEST(ResidualMap, GrainTakesAllItIsGiven) {
     const Image map = grain(64, 0.1), flat(64, 64, 0.5f);
     const Residual whole = bake(map, flat, Wrap::repeat);
     EXPECT_EQ(whole.picture.width, 64);
-    EXPECT_LT(whole.error, 1.0);
+    EXPECT_LT(whole.error, 2.25);
+    // Closer where more is asked, for more bytes.
+    const Residual closer = bake(map, flat, Wrap::repeat, {.tolerance = 1.0});
+    EXPECT_LT(closer.error, 1.0);
+    EXPECT_GT(closer.png.size(), whole.png.size());
     // A 64th of the texels holds nothing of it, so that none are spent.
     const Residual bound = bake(map, flat, Wrap::repeat, {.most_texels = 64});
     EXPECT_EQ(bound.picture.width, 0);

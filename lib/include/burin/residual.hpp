@@ -50,7 +50,7 @@ struct Residual {
 // Ensures: where the paths alone err by more than the tolerance, the smallest size that keeps it, or, where none does, the
 // smallest that comes within a twentieth of the best one; no residual where that takes less than a twentieth of the error
 // away. Where the paths keep the tolerance but are not as near as `unneeded`: by the same rule, a size of at most 1/64 of
-// the map's texels, if that is worthwhile. A map equal to its reconstruction gives none.
+// the map's texels, if that is worthwhile. One of the map's own size has codes as coarse as half the tolerance allows. A map equal to its reconstruction gives none.
 // Equal input gives equal bytes, whatever the number of threads. Fails as encode_png.
 // Cost: some 30 ns a texel and thread, and 6 bytes of memory a texel (16 where sides may be those of the map); slopes are
 // fitted by least squares, weighted by how far they turn a normal.
