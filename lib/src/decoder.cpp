@@ -67,6 +67,8 @@ Status open_decoder(Decoder& decoder, int threads) {
 Result<RgbaImage> decode_picture(std::vector<std::uint8_t> bytes, std::uint64_t max_texels) {
     Result<Container> container = inspect_image(std::move(bytes), max_texels);
     if (!container.ok()) return container.error();
+    if (container->format != "PNG" && container->format != "JPEG")
+        return Error{ErrorCode::unsupported, "the picture is " + container->format + "; PNG and JPEG work"};
     // Decoders may throw; nothing of that leaves this library.
     try {
         return decode_contained(*container);

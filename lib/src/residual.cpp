@@ -56,6 +56,18 @@ int scattered(int x, int y, int range) {
     return static_cast<int>(h % static_cast<std::uint32_t>(range));
 }
 
+// Squared angle between what is drawn in a texel of the map and the map; without a grid, by the paths alone.
+double squared_error(const Scene& scene, const SlopeGrid* grid, int x, int y) {
+    Slope drawn = scene.paths.at(x, y);
+    if (grid) {
+        const float across = (static_cast<float>(x) + 0.5f) / static_cast<float>(scene.map.width);
+        const float down = (static_cast<float>(y) + 0.5f) / static_cast<float>(scene.map.height);
+        const Slope more = bilinear(*grid, across * static_cast<float>(grid->width), down * static_cast<float>(grid->height), scene.wrap);
+        drawn = {drawn.x + more.x, drawn.y + more.y};
+    }
+    return squared_angle(drawn, scene.source.at(x, y));
+}
+
 // RMS angle in degrees, one texel in every block.
 double normal_error(const Scene& scene, const SlopeGrid* grid) {
     constexpr double kMostSamples = 1 << 20;
@@ -63,20 +75,12 @@ double normal_error(const Scene& scene, const SlopeGrid* grid) {
     const int side = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(width) * height / kMostSamples))));
     const int columns = (width + side - 1) / side, rows = (height + side - 1) / side;
     std::vector<double> sums(static_cast<std::size_t>(rows), 0.0);
-    const float to_x = grid ? static_cast<float>(grid->width) / static_cast<float>(width) : 0.0f;
-    const float to_y = grid ? static_cast<float>(grid->height) / static_cast<float>(height) : 0.0f;
     for_each_band(rows, scene.threads, [&](Band band) {
         for (int row = band.begin; row < band.end; ++row)
             for (int column = 0; column < columns; ++column) {
                 const int pick = scattered(column, row, side * side);
                 const int x = std::min(width - 1, column * side + pick % side), y = std::min(height - 1, row * side + pick / side);
-                Slope drawn = scene.paths.at(x, y);
-                if (grid) {
-                    const Slope more = bilinear(*grid, (static_cast<float>(x) + 0.5f) * to_x,
-                                                (static_cast<float>(y) + 0.5f) * to_y, scene.wrap);
-                    drawn = {drawn.x + more.x, drawn.y + more.y};
-                }
-                sums[static_cast<std::size_t>(row)] += squared_angle(drawn, scene.source.at(x, y));
+                sums[static_cast<std::size_t>(row)] += squared_error(scene, grid, x, y);
             }
     });
     double sum = 0.0;
@@ -139,8 +143,7 @@ Coded encode(SlopeGrid& grid, float scale, int step = 1) {
 // Fields of half the map's sides, a quarter, ...: what grids are fitted to.
 class Fields {
   public:
-    Fields(const Scene& scene)
-        : scene_(scene) {
+    explicit Fields(const Scene& scene) : scene_(scene) {
         fields_.push_back(measure_field(scene.source, scene.paths, scene.map.width, scene.map.height,
                                         std::max(1, scene.map.width / 2), std::max(1, scene.map.height / 2), scene.threads));
     }
