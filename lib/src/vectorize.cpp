@@ -79,7 +79,7 @@ void find_features(const Image& source, Traced& traced) {
     std::vector<Chain> grooves, ridges;
     Erased erased_grooves, erased_ridges;
     // Thin lines first: between them, to a wide look, the ground is a ridge.
-    for (const double r : {std::clamp(0.4 * radius, 4.0, 8.0), radius}) {
+    for (const double r : {std::clamp(0.4 * radius, 4.0, 8.0), 0.65 * radius, radius}) {
         Image response = line_response(map, wide, ChainKind::groove, r, noise);
         const double groove_energy = line_energy(response, noise);
         Image other = line_response(map, wide, ChainKind::ridge, r, noise);

@@ -113,10 +113,23 @@ bool tie_to_through(Joint& joint, Arm& arm, double radius) {
     return found;
 }
 
+// Where two arms that run into the same line meet before it, the one with the longer way left ends on the other.
+void tie_to_tied(Joint& joint, double radius) {
+    for (Arm& arm : joint.arms)
+        for (const Arm& other : joint.arms) {
+            Vec2 point;
+            const bool both_tied = arm.tied && other.tied && arm.tie == EndTie::chain && other.tie == EndTie::chain;
+            if (&arm == &other || !both_tied || !intersect(arm, other, point)) continue;
+            const double left = dot(arm.target - point, arm.direction), others = dot(other.target - point, other.direction);
+            if (left > radius + 1.0 && others > -1.0 && left > others) arm.target = point;
+        }
+}
+
 void tie_rest(Joint& joint, double radius) {
     std::vector<Arm*> open;
     for (Arm& arm : joint.arms)
         if (arm.partner < 0 && !tie_to_through(joint, arm, radius)) open.push_back(&arm);
+    tie_to_tied(joint, radius);
     if (open.empty()) return;
     const double limit = 4.0 * radius + 4.0;
     if (open.size() == 2) {
@@ -188,6 +201,7 @@ Graph make_graph(const Skeleton& skeleton, const Lattice& lattice) {
 // continues a prong of the other, the stem goes, and the forks become one node.
 void contract_stems(Skeleton& skeleton, const Lattice& lattice) {
     constexpr double kLongestStem = 14.0;  // in radii of the node
+    constexpr double kMostCost = 0.6;      // less than where lines cross openly: K and X have stems too
     std::vector<std::vector<std::pair<int, int>>> touching(skeleton.nodes.size());  // strand, end
     for (std::size_t s = 0; s < skeleton.strands.size(); ++s)
         for (int end = 0; end < 2 && !skeleton.strands[s].gone && !skeleton.strands[s].loop; ++end)
@@ -207,7 +221,7 @@ void contract_stems(Skeleton& skeleton, const Lattice& lattice) {
         const auto both = [&](int first, int second) {
             return std::max(continuation_cost(prongs[0], prongs[first]), continuation_cost(prongs[1], prongs[second]));
         };
-        if (std::min(both(2, 3), both(3, 2)) > 1.0) continue;
+        if (std::min(both(2, 3), both(3, 2)) > kMostCost) continue;
         stem.gone = true;
         SkeletonNode& node = skeleton.nodes[a];
         const Vec2 other = skeleton.nodes[b].position + lattice.shift_to(skeleton.nodes[b].position, node.position);
@@ -215,6 +229,37 @@ void contract_stems(Skeleton& skeleton, const Lattice& lattice) {
         node.position = lerp(node.position, other, 0.5);
         for (const auto& [strand, end] : touching[b]) skeleton.strands[strand].node[end] = a;
         touching[a].clear(), touching[b].clear();
+    }
+}
+
+// The skeleton of two lines that meet at an acute angle leads on into the tip of their corner; such a strand is no line.
+void drop_tips(Skeleton& skeleton, const Lattice& lattice) {
+    constexpr double kWidestAngle = 1.4;  // radians between the lines
+    std::vector<std::vector<std::pair<int, int>>> touching(skeleton.nodes.size());  // strand, end
+    for (std::size_t s = 0; s < skeleton.strands.size(); ++s)
+        for (int end = 0; end < 2 && !skeleton.strands[s].gone && !skeleton.strands[s].loop; ++end)
+            if (skeleton.strands[s].node[end] >= 0) touching[skeleton.strands[s].node[end]].push_back({static_cast<int>(s), end});
+    for (std::size_t n = 0; n < touching.size(); ++n) {
+        if (touching[n].size() != 3) continue;
+        const SkeletonNode& node = skeleton.nodes[n];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [index, end] = touching[n][k];
+            Strand& tip = skeleton.strands[index];
+            if (tip.gone || tip.node[1 - end] >= 0) continue;
+            const auto [first, first_end] = touching[n][(k + 1) % 3];
+            const auto [second, second_end] = touching[n][(k + 2) % 3];
+            if (first == second) continue;
+            const Arm a = make_arm(skeleton.strands[first], first, first_end, node, lattice);
+            const Arm b = make_arm(skeleton.strands[second], second, second_end, node, lattice);
+            const double angle = std::acos(std::clamp(dot(a.direction, b.direction), -1.0, 1.0));
+            const double half_width = std::max(a.half_width, b.half_width);
+            const double longest = 2.0 * half_width / std::max(0.1, std::sin(0.5 * angle)) + 2.0;
+            Vec2 corner;
+            if (angle > kWidestAngle || !intersect(a, b, corner) || static_cast<double>(tip.texels.size()) > longest) continue;
+            const Vec2 free_end = end == 0 ? tip.texels.back() : tip.texels.front();
+            const Vec2 way = free_end + lattice.shift_to(free_end, node.position) - node.position;
+            if (length(way) > 0.0 && dot(unit(way), unit(a.direction + b.direction)) > 0.8) tip.gone = true;
+        }
     }
 }
 
@@ -312,82 +357,11 @@ struct Builder {
     }
 };
 
-// The way a chain takes near its end: a parabola over its tangent there, fitted to the points that the cap does not
-// disturb.
-struct TailCurve {
-    Vec2 origin, along;
-    double bend = 0.0;  // offset to the left per squared length
-
-    Vec2 at(double s) const { return origin + along * s + normal_of(along) * (bend * s * s); }
-};
-
-// `near`: points from the end backwards.
-TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
-    const Vec2 origin = near.front();
-    const Vec2 rough = unit(near.front() - near[std::min<std::size_t>(near.size() - 1, 6)]);
-    const Vec2 left = normal_of(rough);
-    // Least squares for a + b s + c s^2.
-    double m[3][4] = {};
-    for (const Vec2 p : near) {
-        const double s = dot(p - origin, rough), v = dot(p - origin, left), row[3] = {1.0, s, s * s};
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) m[i][j] += row[i] * row[j];
-            m[i][3] += row[i] * v;
-        }
-    }
-    const double long_enough = 2.0 * half_width + 6.0;
-    if (near.size() < 8 || length(near.front() - near.back()) < long_enough) m[2][2] += 1e12;  // straight
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) {
-            if (k == i || std::fabs(m[i][i]) < 1e-12) continue;
-            const double f = m[k][i] / m[i][i];
-            for (int j = i; j < 4; ++j) m[k][j] -= f * m[i][j];
-        }
-    const auto solved = [&](int i) { return std::fabs(m[i][i]) < 1e-12 ? 0.0 : m[i][3] / m[i][i]; };
-    const double a = solved(0), b = solved(1), c = solved(2);
-    const double tightest = 0.5 / std::max(3.0, half_width);
-    return {origin + left * a, unit(rough + left * b), std::clamp(c, -tightest, tightest)};
-}
-
-// The visible end of a line lies where its response falls to half; a hip cap puts the path's end half a width before.
-// The skeleton of a cap leads into one of its corners: the last points are put where the chain comes to from behind.
-void settle_free_end(std::vector<Vec2>& points, const Chain& chain, const Image& response, const Lattice& lattice) {
-    if (points.size() < 2) return;
-    const double disturbed = chain.half_width + 1.0, span = std::max(8.0, 4.0 * chain.half_width);
-    std::size_t last = points.size() - 1;
-    while (last > 3 && length(points[last] - points.back()) < disturbed && length(points[last] - points[last - 1]) < kBridge) --last;
-    std::vector<Vec2> near;
-    for (std::size_t k = last + 1; k-- > 0;) {
-        if (near.size() >= 2 && length(points[k] - near.back()) > kBridge) break;
-        if (near.size() >= 4 && length(points[k] - near.front()) > span) break;
-        near.push_back(points[k]);
-    }
-    if (near.size() < 2) return;
-    const TailCurve tail = fit_tail(near, chain.half_width);
-    const double half = 0.5 * chain.contrast, furthest = length(points.back() - points[last]) + 4.0 * chain.half_width + 8.0;
-    double t = 0.0;
-    while (t < furthest && sample(response, lattice, tail.at(t)) >= half) t += 0.25;
-    const double end = t - 0.125 - chain.half_width;
-    points.resize(last + 1);
-    while (points.size() > 2 && dot(points.back() - tail.at(end), tail.along) > -0.25) points.pop_back();
-    for (double s = 1.0; s < end - 0.5; s += 1.0) points.push_back(tail.at(s));
-    if (end > -disturbed) points.push_back(tail.at(end));
-}
-
-void settle_ends(Chain& chain, const Image& response, const Lattice& lattice) {
-    if (chain.closed) return;
-    if (chain.end_tie == EndTie::free) settle_free_end(chain.points, chain, response, lattice);
-    if (chain.start_tie == EndTie::free) {
-        std::reverse(chain.points.begin(), chain.points.end());
-        settle_free_end(chain.points, chain, response, lattice);
-        std::reverse(chain.points.begin(), chain.points.end());
-    }
-}
-
 }  // namespace
 
 std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice, ChainKind kind) {
     contract_stems(skeleton, lattice);
+    drop_tips(skeleton, lattice);
     const Graph graph = make_graph(skeleton, lattice);
     Builder builder{graph, std::vector<std::uint8_t>(skeleton.strands.size(), 0)};
     std::vector<Chain> chains;
@@ -420,9 +394,9 @@ std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const
         add(std::move(chain));
     }
     for (Chain& chain : chains) {
+        if (chain.closed) chain.winding = lattice.shift_to(chain.points.front() - chain.points.back(), {0.0, 0.0});
+        sharpen_corners(chain);
         settle_ends(chain, response, lattice);
-        if (chain.closed)
-            chain.winding = lattice.shift_to(chain.points.front() - chain.points.back(), {0.0, 0.0});
     }
     return chains;
 }

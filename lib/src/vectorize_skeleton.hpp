@@ -53,4 +53,10 @@ void measure_strands(Skeleton& skeleton, const Image& response, const Lattice& l
 std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice,
                                 ChainKind kind);
 
+// Puts corners that were cut off where the straight lines on both sides of them meet.
+void sharpen_corners(Chain& chain);
+
+// Puts the free ends of a chain where its response ends, on the way the chain comes from.
+void settle_ends(Chain& chain, const Image& response, const Lattice& lattice);
+
 }  // namespace burin::vectorizing
