@@ -22,11 +22,13 @@ MAPS = [
     "evillair_ex_concrete_floor1_h.png", "pk02_panels01a_h.png", "pk02_floor_cyl02_h.png",
     "oga_crate01_height_from_alpha_512.png", "brick_mask_2k.jpg", "trak5_tile1_h.png", "evillair_ex_wall_panel3_h.png",
     "scratches_gold01_1k_clean_gray.png", "sponza_background_bump.png", "trak5_pipes_h.png",
-    "pk01_wall03_h_CONSTANT.png", "vulkan_terrain_heightmap_r16_16bit.png",
+    "pk01_wall03_h_CONSTANT.png", "vulkan_terrain_heightmap_r16_16bit.png", "3dtextures_rock_ore001_disp_1k.png",
+    "3dtextures_crystal_metal001_disp_1k.png", "sponza_column_a_bump.png",
 ]
 HEAD = ["map", "texels", "paths", "lines + quadratics", "profiles", "explained", "texels per element",
         "texture bytes (grid + data)", "of raw 8 bit", "file", "RMS %", "p99.9 %", "edge RMS texels (lost)",
-        "shader RMS %", "seconds", "findings: burin / official", "path-like"]
+        "shader RMS %", "normals off, degrees: paths alone, with residual", "residual texels", "of the map's",
+        "residual bytes (PNG)", "of raw 8 bit, all textures", "seconds", "findings: burin / official", "path-like"]
 
 
 def run_json(words, allowed=(0,)):
@@ -63,12 +65,18 @@ def row_of(arguments, name, folder):
     lines, quadratics = stats["elements"]["lines"], stats["elements"]["quadratics"]
     grid, data = stats["bytes"]["grid_texture"], stats["bytes"]["data_texture"]
     width, height = stats["map"]["width"], stats["map"]["height"]
+    normals, residual = stats["normal_error"], stats["residual"]
+    texels, residual_bytes = residual["width"] * residual["height"], stats["bytes"]["residual_file"]
     per_element = stats["path_length_texels"] / (lines + quadratics) if lines + quadratics else 0
     return [os.path.splitext(name)[0], f"{width}x{height}", stats["paths"], f"{lines} + {quadratics}",
             stats["profiles"], f"{figures['explained']:.4f}", f"{per_element:.1f}",
             f"{grid + data} ({grid} + {data})", f"1/{width * height / (grid + data):.1f}", stats["bytes"]["file"],
             f"{100 * figures['rms']:.3f}", f"{100 * figures['p999']:.2f}", edge_text(figures["edges"]),
-            f"{100 * shader['rms']:.3f}" if shader else "-", f"{sum(stats['seconds'].values()):.1f}",
+            f"{100 * shader['rms']:.3f}" if shader else "-",
+            f"{normals['paths_alone']:.2f}, {normals['with_residual']:.2f}",
+            f"{residual['width']}x{residual['height']}" if texels else "none",
+            f"1/{width * height / texels:.0f}" if texels else "0", residual_bytes,
+            f"1/{width * height / (grid + data + residual_bytes):.1f}", f"{sum(stats['seconds'].values()):.1f}",
             f"{found['errors']} / {official['issues']['numErrors'] if official else 'absent'}",
             "yes" if stats["path_like"] else "no"]
 

@@ -38,6 +38,9 @@ ExitCode run_convert(const Arguments& arguments) {
     ConvertOptions options = search_options(arguments, *size);
     options.grid.cell_size = arguments.number("--cell-size");
     options.attach.material = arguments.text("--material");
+    const std::string residual = arguments.text("--residual");
+    if (residual == "none") options.residual.most_texels = 0;
+    else if (residual != "auto") options.residual.most_texels = static_cast<std::size_t>(arguments.integer("--residual"));
     ProgressLine line(arguments);
     const auto progress = [&](std::string_view stage, double fraction) {
         line.update(stage, fraction);
@@ -46,9 +49,9 @@ ExitCode run_convert(const Arguments& arguments) {
     const auto converted = convert_map(*map, *model, options, progress);
     if (!converted) return fail(arguments, code_for_input(converted.error()), converted.error().message);
     line.finish();
-    Report report = describe_found(arguments, *map, *converted, converted->glb.size());
+    Report report = describe_found(arguments, *map, *converted, converted->glb.size(), &converted->residual);
     outputs->front().write = [&](const std::string& path) { return write_file(path, converted->glb); };
-    if (const Status drawn = draw_found(arguments, *map, *converted, report, *outputs); !drawn)
+    if (const Status drawn = draw_found(arguments, *map, *converted, report, *outputs, &converted->residual); !drawn)
         return fail(arguments, code_for_input(drawn.error()), drawn.error().message);
     return write_and_print(arguments, report, *outputs);
 }

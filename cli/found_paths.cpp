@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include <burin/error_map.hpp>
@@ -18,7 +19,7 @@ std::int64_t count_of(std::size_t count) { return static_cast<std::int64_t>(coun
 
 std::string of_range(double share) { return percent_text(share, 3) + " of range"; }
 
-void add_counts(Report& report, const ConvertStats& stats, std::size_t file_bytes) {
+void add_counts(Report& report, const ConvertStats& stats, std::size_t file_bytes, const Residual* residual) {
     report.add({"paths", "paths", std::int64_t{stats.paths}, ""});
     report.add_group("paths_by_kind", "  by kind",
                      {{"steps", "steps", std::int64_t{stats.steps}, ""},
@@ -29,10 +30,35 @@ void add_counts(Report& report, const ConvertStats& stats, std::size_t file_byte
                       {"quadratics", "quadratics", std::int64_t{stats.quadratics}, ""}});
     report.add({"profiles", "profiles", std::int64_t{stats.profiles}, ""});
     report.add({"cells", "cells", std::int64_t{stats.cells}, ""});
-    report.add_group("bytes", "bytes",
-                     {{"grid_texture", "grid texture", count_of(stats.grid_bytes), bytes_text(stats.grid_bytes)},
-                      {"data_texture", "data texture", count_of(stats.data_bytes), bytes_text(stats.data_bytes)},
-                      {"file", "file", count_of(file_bytes), bytes_text(file_bytes)}});
+    std::vector<Field> bytes{{"grid_texture", "grid texture", count_of(stats.grid_bytes), bytes_text(stats.grid_bytes)},
+                             {"data_texture", "data texture", count_of(stats.data_bytes), bytes_text(stats.data_bytes)}};
+    if (residual) {
+        const std::size_t uploaded = residual->picture.texels.size(), stored = residual->png.size();
+        bytes.push_back({"residual_texture", "residual", count_of(uploaded), bytes_text(uploaded)});
+        bytes.push_back({"residual_file", "as PNG", count_of(stored), bytes_text(stored)});
+    }
+    bytes.push_back({"file", "file", count_of(file_bytes), bytes_text(file_bytes)});
+    report.add_group("bytes", "bytes", std::move(bytes));
+}
+
+std::string degrees_text(double degrees) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f degrees", degrees);
+    return text;
+}
+
+// How far the normals are off that are drawn, and what stands in for what the paths leave.
+void add_residual(Report& report, const Residual& residual) {
+    report.add_group("normal_error", "normals off, RMS",
+                     {{"paths_alone", "paths alone", residual.error_without, degrees_text(residual.error_without)},
+                      {"with_residual", "with residual", residual.error, degrees_text(residual.error)}});
+    const RgbaImage& picture = residual.picture;
+    Field size = group("residual", "residual",
+                       {{"width", "width", std::int64_t{picture.width}, ""},
+                        {"height", "height", std::int64_t{picture.height}, ""},
+                        {"scale", "scale", residual.scale, ""}});
+    if (picture.width == 0) size.text = "none";
+    report.add(std::move(size));
 }
 
 // What each class of paths explains, and what is left.
@@ -108,7 +134,7 @@ std::vector<std::string> notes_on(const HeightMap& map, const ConvertStats& stat
         notes.push_back("the map is constant: it holds no path, and the surface is flat");
     else if (!stats.path_like)
         notes.push_back("the map is not path-like: the paths explain " + number_text(std::max(share, 0.0)) +
-                        " of its detail; the fallback maps carry the rest");
+                        " of its detail; normal maps carry the rest");
     if (stats.dropped_paths > 0)
         notes.push_back(std::to_string(stats.dropped_paths) + " traced paths could not be joined and were left out");
     if (stats.unrefined != Unrefined::no)
@@ -187,7 +213,7 @@ Result<std::vector<OutputFile>> name_outputs(const Arguments& arguments, const s
 }
 
 Report describe_found(const Arguments& arguments, const HeightMap& map, const FoundPattern& found,
-                      std::size_t file_bytes) {
+                      std::size_t file_bytes, const Residual* residual) {
     const ConvertStats& stats = found.stats;
     Report report;
     report.add({"output", "output", arguments.text("--output"), ""});
@@ -197,8 +223,9 @@ Report describe_found(const Arguments& arguments, const HeightMap& map, const Fo
                       {"format", "format", map.format, ""},
                       {"bits", "bits", std::int64_t{map.bit_depth}, ""},
                       {"channel", "channel", map.channel, ""}});
-    add_counts(report, stats, file_bytes);
+    add_counts(report, stats, file_bytes, residual);
     add_certificate(report, stats);
+    if (residual) add_residual(report, *residual);
     add_bounds(arguments, report, stats);
     add_method(report, stats);
     Rows notes{"notes", "notes", {}};
@@ -208,7 +235,7 @@ Report describe_found(const Arguments& arguments, const HeightMap& map, const Fo
 }
 
 Status draw_found(const Arguments& arguments, const HeightMap& map, const FoundPattern& found, Report& report,
-                  std::vector<OutputFile>& outputs) {
+                  std::vector<OutputFile>& outputs, const Residual* residual) {
     const bool error_map = arguments.given("--error-map"), page = arguments.given("--report");
     if (!error_map && !page) return Done{};
     const int threads = arguments.integer("--threads");
@@ -227,7 +254,7 @@ Status draw_found(const Arguments& arguments, const HeightMap& map, const FoundP
         report.add({"report", "report", arguments.text("--report"), ""});
         const ReportText text{std::filesystem::path(arguments.file).filename().string(), arguments.line,
                               "burin " BURIN_VERSION, report.lines("seconds"), notes_on(map, found.stats)};
-        auto html = write_html_report(map, found, *heights, text, threads);
+        auto html = write_html_report(map, found, *heights, text, residual, threads);
         if (!html) return html.error();
         outputs[2].write = text_writer(std::move(*html));
     }

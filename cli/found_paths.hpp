@@ -25,12 +25,12 @@ ConvertOptions search_options(const Arguments& arguments, Vec2 size);
 Result<std::vector<OutputFile>> name_outputs(const Arguments& arguments, const std::string& suffix,
                                              std::initializer_list<std::string> inputs);
 
-// What was found and measured. `file_bytes`: size of the main output.
+// What was found and measured. `file_bytes`: size of the main output. `residual`: of a conversion.
 Report describe_found(const Arguments& arguments, const HeightMap& map, const FoundPattern& found,
-                      std::size_t file_bytes);
+                      std::size_t file_bytes, const Residual* residual = nullptr);
 
 // Draws what --error-map and --report ask for into `outputs`, and adds what there is to say about it to `report`.
 Status draw_found(const Arguments& arguments, const HeightMap& map, const FoundPattern& found, Report& report,
-                  std::vector<OutputFile>& outputs);
+                  std::vector<OutputFile>& outputs, const Residual* residual = nullptr);
 
 }  // namespace burin::cli

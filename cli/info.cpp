@@ -16,6 +16,11 @@ namespace {
 
 std::int64_t count_of(std::size_t count) { return static_cast<std::int64_t>(count); }
 
+std::string residual_text(const RgbaImage& residual) {
+    if (residual.width == 0) return "none";
+    return std::to_string(residual.width) + "x" + std::to_string(residual.height) + " RGBA8, " + bytes_text(residual.texels.size());
+}
+
 // What a material's pattern holds, as fields of the material's row.
 void add_pattern(std::vector<Field>& row, const MaterialInfo& material, const UnpackedPattern& unpacked) {
     const PathDetail& detail = material.detail;
@@ -42,12 +47,15 @@ void add_pattern(std::vector<Field>& row, const MaterialInfo& material, const Un
                       {"grid_height", "", std::int64_t{detail.grid_height}, ""},
                       {"data_width", "", std::int64_t{detail.data_width}, ""},
                       {"data_height", "", std::int64_t{detail.data_height}, ""},
+                      {"residual_width", "", std::int64_t{material.residual.width}, ""},
+                      {"residual_height", "", std::int64_t{material.residual.height}, ""},
                       {"grid_bytes", "grid", count_of(grid_bytes),
                        std::to_string(detail.grid_width) + "x" + std::to_string(detail.grid_height) + " RG32UI, " +
                            bytes_text(grid_bytes)},
                       {"data_bytes", "data", count_of(data_bytes),
                        std::to_string(detail.data_width) + "x" + std::to_string(detail.data_height) + " RGBA32UI, " +
-                           bytes_text(data_bytes)}}));
+                           bytes_text(data_bytes)},
+                      {"residual_bytes", "residual", count_of(material.residual.texels.size()), residual_text(material.residual)}}));
 }
 
 ExitCode describe_asset(const Arguments& arguments) {

@@ -15,6 +15,7 @@ constexpr auto text = OptionKind::text;
 constexpr auto number = OptionKind::number;
 constexpr auto integer = OptionKind::integer;
 constexpr auto choice = OptionKind::choice;
+constexpr auto either = OptionKind::choice_or_integer;
 constexpr auto extent = OptionKind::extent;
 constexpr auto pixels = OptionKind::pixels;
 constexpr auto bytes = OptionKind::bytes;
@@ -63,6 +64,8 @@ std::vector<OptionSpec> make_table() {
          "most that both textures take as uploaded, K and M for KiB and MiB; paths are given up until they do"},
         {"--cell-size", "convert", number, "METRES", "m", "0", 0, 1e6, "", false,
          "side of a grid cell; 0 chooses by a cost model"},
+        {"--residual", "convert", either, "WHICH", "texels", "auto", 1, 16777216, "auto|none", false,
+         "normal map of what the paths leave out: of a size by its content, none, or at most so many texels"},
         {"--report", "convert vectorize", text, "PAGE.html", "", "", 0, 0, "", false,
          "write a page to look at: map, error, paths, the worst places"},
         {"--error-map", "convert vectorize", text, "PICTURE", "", "", 0, 0, "", false,

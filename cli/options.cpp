@@ -65,7 +65,7 @@ bool parse_numbers(const std::string& text, char separator, std::vector<double>&
 
 std::string plain(double value) {
     char text[32];
-    const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6);
+    const auto result = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 8);
     return std::string(text, result.ptr);
 }
 
@@ -75,17 +75,17 @@ std::string with_unit(const OptionSpec& spec, const std::string& text) {
 
 // "1e-06 to 1000 m", "one of height, depth": what a message offers and --help shows.
 std::string range_text(const OptionSpec& spec) {
-    if (spec.kind == OptionKind::choice) {
-        std::string list;
-        for (const std::string& name : split(spec.choices, '|')) list += (list.empty() ? "" : ", ") + name;
-        return "one of " + list;
-    }
-    return with_unit(spec, plain(spec.low) + " to " + plain(spec.high));
+    const std::string range = with_unit(spec, plain(spec.low) + " to " + plain(spec.high));
+    if (spec.kind != OptionKind::choice && spec.kind != OptionKind::choice_or_integer) return range;
+    std::string list;
+    for (const std::string& name : split(spec.choices, '|')) list += (list.empty() ? "" : ", ") + name;
+    return spec.kind == OptionKind::choice ? "one of " + list : list + " or " + range;
 }
 
 std::string form_text(const OptionSpec& spec) {
     switch (spec.kind) {
         case OptionKind::integer: return "a whole number";
+        case OptionKind::choice_or_integer: return "one of the names or a whole number";
         case OptionKind::extent: return "one number or two joined by x, such as 2 or 2x1.5";
         case OptionKind::pixels: return "one whole number or two joined by x, such as 640x480";
         case OptionKind::bytes: return "a whole number, or one with K or M behind it, such as 65536 or 64K";
@@ -104,7 +104,9 @@ Status check_numbers(const OptionSpec& spec, const std::string& text) {
     const bool sized = spec.kind == OptionKind::bytes;
     if (sized) values.resize(1);
     const bool parsed = sized ? parse_bytes(text, values[0]) : parse_numbers(text, extent ? 'x' : list ? ',' : '\0', values);
-    const bool whole = (spec.kind != OptionKind::integer && spec.kind != OptionKind::pixels) ||
+    const bool wants_whole = spec.kind == OptionKind::integer || spec.kind == OptionKind::pixels ||
+                             spec.kind == OptionKind::choice_or_integer;
+    const bool whole = !wants_whole ||
                        std::all_of(values.begin(), values.end(), [](double v) { return v == std::floor(v); });
     const bool counted = extent ? values.size() <= 2 : values.size() == wanted;
     const std::string given = long_name(spec) + " '" + text + "'";
@@ -122,9 +124,10 @@ Status check_value(const OptionSpec& spec, const std::string& text) {
         if (text.empty()) return refuse(long_name(spec) + " is empty; it needs a " + spec.argument);
         return Done{};
     }
-    if (spec.kind == OptionKind::choice) {
+    if (spec.kind == OptionKind::choice || spec.kind == OptionKind::choice_or_integer) {
         const auto names = split(spec.choices, '|');
         if (std::find(names.begin(), names.end(), text) != names.end()) return Done{};
+        if (spec.kind == OptionKind::choice_or_integer) return check_numbers(spec, text);
         return refuse(long_name(spec) + " '" + text + "' is not known; " + range_text(spec) + " works");
     }
     return check_numbers(spec, text);
@@ -264,7 +267,8 @@ std::string option_line(const OptionSpec& spec) {
     left += left.size() < 30 ? std::string(30 - left.size(), ' ') : "  ";
     std::string notes;
     if (spec.kind != OptionKind::flag && spec.kind != OptionKind::text) notes += range_text(spec);
-    if (!spec.fallback.empty()) notes += (notes.empty() ? "" : "; ") + ("default " + with_unit(spec, spec.fallback));
+    const bool named = spec.kind == OptionKind::choice_or_integer;
+    if (!spec.fallback.empty()) notes += (notes.empty() ? "" : "; ") + ("default " + (named ? spec.fallback : with_unit(spec, spec.fallback)));
     if (spec.required) notes += notes.empty() ? "required" : "; required";
     return left + spec.help + (notes.empty() ? "" : " [" + notes + "]") + "\n";
 }

@@ -25,6 +25,7 @@ enum class OptionKind {
     number,   // a real number in [low, high]
     integer,  // a whole number in [low, high]
     choice,   // one of `choices`, separated by |
+    choice_or_integer,  // one of `choices`, or a whole number in [low, high]
     extent,   // one number, or two joined by x: 2 or 2x1.5; each in [low, high]
     pixels,   // an extent in whole numbers
     bytes,    // a whole number in [low, high], with K for KiB or M for MiB behind it if one likes
@@ -39,7 +40,7 @@ struct OptionSpec {
     const char* unit;        // "" when it has none
     std::string fallback;    // the value when the option is absent; "" when there is none
     double low, high;        // range, both ends included; unused unless the kind has numbers
-    const char* choices;     // for OptionKind::choice
+    const char* choices;     // for OptionKind::choice and choice_or_integer
     bool required;
     const char* help;        // one sentence, no full stop
 };

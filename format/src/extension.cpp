@@ -195,6 +195,35 @@ void read_sections(const json& data, PathDetail& detail, Reporter& reporter) {
     }
 }
 
+// Whether its texture and image are there shows in the document alone.
+void read_residual(const json& extension, PathDetail& detail, Reporter& reporter) {
+    const json* residual = find_property(extension, "residualTexture", false, "", reporter);
+    if (residual == nullptr) return;
+    const std::string path = "/residualTexture";
+    if (!residual->is_object()) {
+        reporter.report(2005, std::string("residualTexture is a ") + type_text(*residual) + ", an object is needed", path);
+        return;
+    }
+    std::int64_t number = 0;
+    if (read_count(*residual, path, "index", 0, std::numeric_limits<int>::max(), 2023, number, reporter))
+        detail.residual_texture = static_cast<int>(number);
+    number = 0;
+    const bool named = residual->contains("texCoord");
+    if ((!named || read_count(*residual, path, "texCoord", 0, 255, 2026, number, reporter)) && number != detail.tex_coord)
+        reporter.report(2026, "texCoord is " + std::to_string(number) + ", the pattern's is " +
+                                  std::to_string(detail.tex_coord), path + "/texCoord");
+    const auto scale = residual->find("scale");
+    if (scale == residual->end()) return;
+    if (!scale->is_number()) {
+        reporter.report(2005, std::string("scale is a ") + type_text(*scale) + ", a number is needed", path + "/scale");
+        return;
+    }
+    detail.residual_scale = scale->get<double>();
+    if (!(detail.residual_scale > 0.0 && detail.residual_scale <= BURIN_MAX_LENGTH))
+        reporter.report(2025, "scale is " + number_text(detail.residual_scale) + ", above 0 and at most 1e9 is needed",
+                        path + "/scale");
+}
+
 }  // namespace
 
 bool read_integer(const json& value, std::int64_t low, std::int64_t high, std::int64_t& out) {
@@ -230,6 +259,7 @@ bool read_extension(const json& extension, PathDetail& detail, Reporter& reporte
     const json* data =
         read_texture(extension, "data", detail.data_view, detail.data_width, detail.data_height, reporter);
     if (data != nullptr) read_sections(*data, detail, reporter);
+    read_residual(extension, detail, reporter);
     return reporter.errors() == errors;
 }
 
@@ -251,6 +281,10 @@ std::string write_extension(const PathDetail& d) {
                          {"profiles", d.sections.profile_texels},
                          {"materials", d.sections.material_texels},
                          {"lists", d.sections.list_texels}};
+    if (d.residual_texture >= 0) {
+        extension["residualTexture"] = {
+            {"index", d.residual_texture}, {"texCoord", d.tex_coord}, {"scale", d.residual_scale}};
+    }
     return extension.dump();
 }
 

@@ -74,10 +74,59 @@ void check_textures(const PackedTextures& textures, const PathDetail& detail, Re
     check_steps(textures, detail, data, reporter);
 }
 
-void check_material(const json& extension, Buffers& buffers, Reporter& reporter) {
+// Entry `object[key]` of the document's `array`; nullptr when there is none.
+const json* referred(const json& document, const char* array, const json& object, const char* key) {
+    const auto list = document.find(array);
+    const auto index = object.find(key);
+    std::int64_t place = 0;
+    if (list == document.end() || !list->is_array() || index == object.end() || !index->is_number() ||
+        !read_integer(*index, 0, static_cast<std::int64_t>(list->size()) - 1, place))
+        return nullptr;
+    const json& entry = (*list)[static_cast<std::size_t>(place)];
+    return entry.is_object() ? &entry : nullptr;
+}
+
+// Whether the bytes can be looked for; what is in them is not checked.
+bool has_picture(const json& document, const json& image) {
+    if (image.contains("uri")) return image["uri"].is_string();
+    const auto type = image.find("mimeType");
+    return referred(document, "bufferViews", image, "bufferView") != nullptr && type != image.end() &&
+           (*type == "image/png" || *type == "image/jpeg");
+}
+
+void check_sampler(const json& document, const json& texture, bool repeat, Reporter& reporter) {
+    constexpr std::int64_t kRepeat = 10497, kClampToEdge = 33071;
+    const json* sampler = referred(document, "samplers", texture, "sampler");
+    for (const char* key : {"wrapS", "wrapT"}) {
+        std::int64_t wrap = kRepeat;
+        if (sampler != nullptr && sampler->contains(key) && (*sampler)[key].is_number())
+            (void)read_integer((*sampler)[key], 0, 1 << 16, wrap);
+        if (wrap != (repeat ? kRepeat : kClampToEdge))
+            reporter.report(2027, std::string(key) + " of its sampler is " + std::to_string(wrap) + ", " +
+                                      std::to_string(repeat ? kRepeat : kClampToEdge) + " is needed",
+                            "/residualTexture/index");
+    }
+}
+
+void check_residual(const json& document, const json& extension, const PathDetail& detail, Reporter& reporter) {
+    if (detail.residual_texture < 0) return;
+    const std::string place = "/residualTexture/index", index = std::to_string(detail.residual_texture);
+    const json* texture = referred(document, "textures", extension["residualTexture"], "index");
+    if (texture == nullptr) {
+        reporter.report(2023, "there is no texture " + index, place);
+        return;
+    }
+    const json* image = referred(document, "images", *texture, "source");
+    if (image == nullptr || !has_picture(document, *image))
+        reporter.report(2024, "texture " + index + " leads to no image of type image/png or image/jpeg", place);
+    check_sampler(document, *texture, detail.repeat, reporter);
+}
+
+void check_material(const json& document, const json& extension, Buffers& buffers, Reporter& reporter) {
     PathDetail detail;
     const std::string prefix = reporter.prefix();
     if (!read_extension(extension, detail, reporter)) return;
+    check_residual(document, extension, detail, reporter);
     const auto texels = [](int width, int height) {
         return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     };
@@ -145,7 +194,7 @@ void check_document(const Container& container, const ValidateOptions& options, 
         used_by_material = true;
         reporter.set_prefix("/materials/" + std::to_string(i) + "/extensions/" +
                             std::string(kPathDetailExtension));
-        check_material(*extension, buffers, reporter);
+        check_material(document, *extension, buffers, reporter);
         reporter.set_prefix({});
     }
     if (used_by_material && !used) {

@@ -56,6 +56,36 @@ Status read_textures(const ModelData& model, const std::string& where, MaterialI
     return Done{};
 }
 
+// Bytes of an image, wherever they lie.
+Result<std::vector<std::uint8_t>> image_bytes(const ModelData& model, std::uint64_t index, const std::string& where) {
+    const Json& images = array_of(model.document, "images");
+    if (index >= images.size()) return model_error(where + ": there is no image " + std::to_string(index));
+    if (!model.images[index].bytes.empty()) return model.images[index].bytes;
+    const Json& views = array_of(model.document, "bufferViews");
+    const std::uint64_t place = unsigned_or(images[index], "bufferView", views.size());
+    if (place >= views.size()) return model_error(where + ": its image has neither bytes nor a bufferView");
+    const auto& buffer = model.buffers[unsigned_or(views[place], "buffer", 0)];
+    const auto begin = buffer.begin() + static_cast<std::ptrdiff_t>(unsigned_or(views[place], "byteOffset", 0));
+    return std::vector<std::uint8_t>(begin, begin + static_cast<std::ptrdiff_t>(unsigned_or(views[place], "byteLength", 0)));
+}
+
+Status read_residual(const ModelData& model, const std::string& where, MaterialInfo& info) {
+    if (info.detail.residual_texture < 0) return Done{};
+    constexpr std::uint64_t kMostTexels = 1u << 28;
+    const std::string place = where + ".residualTexture";
+    const Json& textures = array_of(model.document, "textures");
+    const auto index = static_cast<std::size_t>(info.detail.residual_texture);
+    if (index >= textures.size())
+        return model_error(place + ": index is " + std::to_string(index) + ", there are " + std::to_string(textures.size()) +
+                           " textures");
+    auto bytes = image_bytes(model, unsigned_or(textures[index], "source", ~std::uint64_t{0}), place);
+    if (!bytes) return bytes.error();
+    auto picture = decode_picture(std::move(*bytes), kMostTexels);
+    if (!picture) return Error{picture.error().code, place + ": " + picture.error().message};
+    info.residual = std::move(*picture);
+    return Done{};
+}
+
 Result<MaterialInfo> read_material(const ModelData& model, std::size_t index) {
     const Json& material = array_of(model.document, "materials")[index];
     MaterialInfo info;
@@ -81,6 +111,7 @@ Result<MaterialInfo> read_material(const ModelData& model, std::size_t index) {
     info.detail = *detail;
     info.has_detail = true;
     if (Status status = read_textures(model, where, info); !status.ok()) return status.error();
+    if (Status status = read_residual(model, where, info); !status.ok()) return status.error();
     return info;
 }
 

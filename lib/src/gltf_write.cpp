@@ -14,6 +14,7 @@ namespace {
 constexpr const char* kReplacedNormalTexture = "burin_replaced_normal_texture";
 constexpr const char* kNormalName = "path detail, normals";
 constexpr const char* kOcclusionName = "path detail, occlusion";
+constexpr const char* kResidualName = "path detail, residual";
 // Views start on multiples of four bytes as glTF asks; the textures on sixteen, so that a mapped file can be
 // uploaded as it lies.
 constexpr std::size_t kAlignment = 4, kTextureAlignment = 16;
@@ -74,9 +75,13 @@ class GlbWriter {
     Result<std::size_t> add_texture(const RgbaImage& image, const char* name, std::size_t sampler) {
         Result<std::vector<std::uint8_t>> png = encode_png(image);
         if (!png.ok()) return png.error();
+        return add_texture(*png, name, sampler);
+    }
+
+    std::size_t add_texture(const std::vector<std::uint8_t>& png, const char* name, std::size_t sampler) {
         // In this order a texture that is replaced gives its image and view to the new one.
         const std::size_t texture = places_.take("textures"), source = places_.take("images");
-        const std::size_t view = add_view(*png, kAlignment);
+        const std::size_t view = add_view(png, kAlignment);
         document_["images"][source] = {{"bufferView", view}, {"mimeType", "image/png"}, {"name", name}};
         document_["textures"][texture] = {{"source", source}, {"sampler", sampler}, {"name", name}};
         return texture;
@@ -189,6 +194,11 @@ class GlbWriter {
     // Takes our texture off the material, if it is ours; returns its place to be released.
     std::optional<std::uint64_t> take_off(Json& material, const char* slot, const char* name);
 
+    // The extension's own texture, if burin wrote it.
+    std::optional<std::uint64_t> take_off_residual(Json extension) {
+        return take_off(extension, "residualTexture", kResidualName);
+    }
+
     const ModelData& model_;
     Json document_;
     Places places_;  // of document_
@@ -224,10 +234,12 @@ void GlbWriter::detach(std::size_t index) {
     if (found == nullptr) return;
     const Json extension = *found;
     material["extensions"].erase(extension_name);
-    const auto normal = take_off(material, "normalTexture", kNormalName);
+    auto normal = take_off(material, "normalTexture", kNormalName);
+    if (!normal) normal = take_off(material, "normalTexture", kResidualName);
     const auto occlusion = take_off(material, "occlusionTexture", kOcclusionName);
     if (normal) restore_normal_texture(material, array_of(document_, "textures").size());
-    for (const auto& texture : {normal, occlusion})
+    const auto residual = take_off_residual(extension);
+    for (const auto& texture : {normal, occlusion, residual})
         if (texture) places_.release("textures", *texture);
     constexpr std::uint64_t kNone = ~std::uint64_t{0};
     for (const char* key : {"grid", "data"})
@@ -236,24 +248,28 @@ void GlbWriter::detach(std::size_t index) {
 }
 
 // Puts the fallback's normal map into the core material and keeps what stood there under the extras.
-void set_normal_texture(Json& material, std::size_t texture, int tex_coord) {
+void set_normal_texture(Json& material, std::size_t texture, double scale, int tex_coord) {
     if (material.contains("normalTexture")) {
         Json& extras = material["extras"];
         if (!extras.is_null() && !extras.is_object()) extras = {{"value", extras}};
         extras[kReplacedNormalTexture] = material["normalTexture"];
     }
     material["normalTexture"] = {{"index", texture}};
+    if (scale != 1.0) material["normalTexture"]["scale"] = scale;
     if (tex_coord != 0) material["normalTexture"]["texCoord"] = tex_coord;
 }
 
 Status add_fallback(GlbWriter& writer, Json& material, const Fallback& fallback, const PathDetail& detail) {
-    if (fallback.normal.width == 0) return Done{};
-    const std::size_t sampler = writer.add_sampler(detail.repeat);
-    Result<std::size_t> normal = writer.add_texture(fallback.normal, kNormalName, sampler);
-    if (!normal.ok()) return normal.error();
-    set_normal_texture(material, *normal, detail.tex_coord);
+    if (fallback.normal.width > 0) {
+        Result<std::size_t> normal = writer.add_texture(fallback.normal, kNormalName, writer.add_sampler(detail.repeat));
+        if (!normal.ok()) return normal.error();
+        set_normal_texture(material, *normal, 1.0, detail.tex_coord);
+    } else if (detail.residual_texture >= 0) {
+        set_normal_texture(material, static_cast<std::size_t>(detail.residual_texture), detail.residual_scale, detail.tex_coord);
+    }
     if (fallback.occlusion.width == 0 || material.contains("occlusionTexture")) return Done{};
-    Result<std::size_t> occlusion = writer.add_texture(fallback.occlusion, kOcclusionName, sampler);
+    Result<std::size_t> occlusion =
+        writer.add_texture(fallback.occlusion, kOcclusionName, writer.add_sampler(detail.repeat));
     if (!occlusion.ok()) return occlusion.error();
     material["occlusionTexture"] = {{"index", *occlusion}};
     if (detail.tex_coord != 0) material["occlusionTexture"]["texCoord"] = detail.tex_coord;
@@ -264,7 +280,7 @@ Status add_fallback(GlbWriter& writer, Json& material, const Fallback& fallback,
 
 Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedTextures& textures,
                                             const PathDetail& detail, const Fallback& fallback,
-                                            const AttachOptions& options) {
+                                            const AttachOptions& options, const Residual& residual) {
     assert(textures.grid.size() == static_cast<std::size_t>(textures.grid_width) * textures.grid_height * 2);
     assert(textures.data.size() == static_cast<std::size_t>(textures.data_width) * textures.data_height * 4);
     Result<MaterialTarget> target = find_material(model, options);
@@ -277,6 +293,12 @@ Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedText
     described.tex_coord = options.tex_coord;
     described.grid_view = static_cast<int>(writer.add_words(textures.grid, "path detail, grid"));
     described.data_view = static_cast<int>(writer.add_words(textures.data, "path detail, data"));
+    described.residual_texture = -1;
+    if (residual.picture.width > 0) {
+        described.residual_texture =
+            static_cast<int>(writer.add_texture(residual.png, kResidualName, writer.add_sampler(detail.repeat)));
+        described.residual_scale = residual.scale;
+    }
     Json& material = writer.material(target->index, target->name);
     if (Status status = add_fallback(writer, material, fallback, described); !status.ok())
         return status.error();

@@ -1,19 +1,15 @@
 #include <burin/heightmap.hpp>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include <burin/image_io.hpp>
 
-#include "container.hpp"
+#include "decoder.hpp"
 
 namespace burin {
 namespace {
@@ -53,50 +49,6 @@ struct Statistics {
     float alpha_high = -std::numeric_limits<float>::infinity();
     std::optional<std::size_t> not_finite;  // first such texel
 };
-
-using Input = std::unique_ptr<OIIO::ImageInput>;
-
-// Decoder and the memory it reads from; the proxy outlives the input.
-struct Decoder {
-    explicit Decoder(const Container& c) : container(c), proxy(c.bytes.data(), c.bytes.size()) {}
-    const Container& container;
-    OIIO::Filesystem::IOMemReader proxy;
-    Input input;
-    OIIO::ImageSpec spec;
-};
-
-std::string size_text(std::int64_t w, std::int64_t h) { return std::to_string(w) + "x" + std::to_string(h); }
-
-// The decoder's own words, on one line.
-Error decoder_error(const Container& container, std::string message) {
-    for (char& c : message)
-        if (c == '\n' || c == '\r' || c == '\t') c = ' ';
-    while (!message.empty() && (message.back() == ' ' || message.back() == '.')) message.pop_back();
-    if (message.empty()) message = "the picture data is damaged";
-    return damaged(container.format + ": " + message);
-}
-
-Status open_decoder(Decoder& decoder, int threads) {
-    const Container& c = decoder.container;
-    decoder.input = OIIO::ImageInput::create(c.plugin);
-    if (decoder.input == nullptr)
-        return Error{ErrorCode::unavailable, "this OpenImageIO has no reader for " + c.format};
-    decoder.input->threads(threads);
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);  // values as they are stored
-    if (!decoder.input->set_ioproxy(&decoder.proxy))
-        return Error{ErrorCode::unavailable, "this OpenImageIO reads " + c.format + " from files only"};
-    if (!decoder.input->open(std::string("memory") + c.suffix, decoder.spec, config))
-        return decoder_error(c, decoder.input->geterror());
-    const OIIO::ImageSpec& spec = decoder.spec;
-    if (static_cast<std::uint64_t>(spec.width) != c.width ||
-        static_cast<std::uint64_t>(spec.height) != c.height || spec.nchannels < 1 || spec.depth > 1 ||
-        spec.deep)
-        return damaged(c.format + ": the decoder sees " + size_text(spec.width, spec.height) + " texels of " +
-                       std::to_string(spec.nchannels) + " channels, the header said " +
-                       size_text(static_cast<std::int64_t>(c.width), static_cast<std::int64_t>(c.height)));
-    return Done{};
-}
 
 Layout layout_of(const OIIO::ImageSpec& spec) {
     Layout layout;

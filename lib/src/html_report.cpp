@@ -160,7 +160,7 @@ std::string head(const Scene& scene, const ReportText& text) {
     page += "<div class=\"shares\">" + part(shares.steps, kKindColors[2]) + part(shares.lines, kKindColors[0]) +
             "</div><p>" + key(steps, "steps and levels explain " + percent(shares.steps, 2)) +
             key(lines, "grooves and ridges on top " + percent(shares.lines, 2)) +
-            key("#d8d8d4", "left to the fallback maps " + percent(shares.left, 4)) + "</p>";
+            key("#d8d8d4", "left to the normal maps " + percent(shares.left, 4)) + "</p>";
     for (const std::string& note : text.notes) page += "<p>" + escaped(note) + "</p>";
     return page;
 }
@@ -186,6 +186,25 @@ void add_overview(const Scene& scene, Page& page) {
     page.add(figure(draw_grey(built, scene.low, scene.high), "what the paths make of it"));
     page.add(figure(color_error(error, scene.full), "error", "", error_legend(scene.full)));
     page.add(figure(grey, "paths over the map", draw_paths(scene.found.pattern, scene.map.image, scene.whole()), kind_keys()));
+    page.add("</div>");
+}
+
+// Normals with and without the residual, and the residual.
+void add_residual(const Residual* residual, Page& page) {
+    if (residual == nullptr) return;
+    const auto degrees = [](double angle) { return decimal(angle, 2) + "°"; };
+    page.add("<h2>Normals</h2><div class=\"tiles\">" + tile(degrees(residual->error_without), "RMS angle to the map's, paths alone") +
+             tile(degrees(residual->error), "with the residual") + "</div>");
+    const RgbaImage& picture = residual->picture;
+    if (picture.width == 0) {
+        page.add("<p>No residual normal map: none is needed, or none that is allowed helps.</p>");
+        return;
+    }
+    page.add("<div class=\"overview\" style=\"max-width:690px\">");
+    page.add(figure(picture, "residual normal map: what the paths leave out", "",
+                    ", " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " texels, " +
+                        decimal(static_cast<double>(residual->png.size()) / 1024.0, 1) + " KiB, a full channel is a slope of " +
+                        decimal(residual->scale, 3)));
     page.add("</div>");
 }
 
@@ -243,7 +262,7 @@ std::string figures_section(const ReportText& text) {
 }  // namespace
 
 Result<std::string> write_html_report(const HeightMap& map, const FoundPattern& found, const Image& reconstruction,
-                                      const ReportText& text, int threads) {
+                                      const ReportText& text, const Residual* residual, int threads) {
     assert(reconstruction.width == map.image.width && reconstruction.height == map.image.height);
     const auto unpacked = unpack_textures(found.textures, found.detail);
     if (!unpacked) return unpacked.error();
@@ -255,6 +274,7 @@ Result<std::string> write_html_report(const HeightMap& map, const FoundPattern& 
         page.add(std::string(".") + kKindNames[kind] + "{stroke:" + kKindColors[kind] + "}\n");
     page.add("</style></head><body><main>" + head(scene, text));
     add_overview(scene, page);
+    add_residual(residual, page);
     add_spots(scene, unpacked->pattern, threads, page);
     page.add(fits_section(scene) + figures_section(text) + "</main></body></html>\n");
     return page.text();

@@ -37,6 +37,7 @@ class Core {
 #include "core/ground.glsl"
 #include "core/trace.glsl"
 #include "core/surface.glsl"
+#include "core/residual.glsl"
 };
 
 Core make_core(const PackedTextures& textures, const PathDetail& detail) {

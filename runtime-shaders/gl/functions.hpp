@@ -37,6 +37,7 @@ namespace burin::gl {
     F(ACTIVETEXTURE, ActiveTexture)                  \
     F(TEXIMAGE2D, TexImage2D)                        \
     F(TEXPARAMETERI, TexParameteri)                  \
+    F(GENERATEMIPMAP, GenerateMipmap)                \
     F(PIXELSTOREI, PixelStorei)                      \
     F(GENBUFFERS, GenBuffers)                        \
     F(DELETEBUFFERS, DeleteBuffers)                  \

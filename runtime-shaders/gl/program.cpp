@@ -11,6 +11,8 @@ namespace {
 constexpr const char* kVersion =
     "#version 330 core\n#define BURIN_OUT(type) out type\n#define BURIN_INOUT(type) inout type\n";
 
+constexpr int kResidualUnit = 3;  // behind those of the pattern and the renderer's own
+
 // Log of a shader or program, shortened to its first lines.
 template <typename Query, typename Log>
 std::string log_of(Query query, Log log, GLuint id) {
@@ -52,6 +54,24 @@ GLuint make_texture(const Functions& gl, GLint format, GLenum layout, int width,
     return name;
 }
 
+// A residual, filtered as its sampler says; one texel that is never asked where there is none.
+GLuint make_residual(const Functions& gl, const RgbaImage& picture, bool repeat) {
+    const std::vector<std::uint8_t> none(4, 128);
+    const bool empty = picture.width == 0;
+    GLuint name = 0;
+    gl.GenTextures(1, &name);
+    gl.BindTexture(GL_TEXTURE_2D, name);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, empty ? 1 : picture.width, empty ? 1 : picture.height, 0, GL_RGBA,
+                  GL_UNSIGNED_BYTE, empty ? none.data() : picture.texels.data());
+    gl.GenerateMipmap(GL_TEXTURE_2D);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        gl.TexParameteri(GL_TEXTURE_2D, side, repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    return name;
+}
+
 }  // namespace
 
 std::string fragment_text(Stage stage) {
@@ -61,7 +81,7 @@ std::string fragment_text(Stage stage) {
     text += shader_text::bindings;
     for (const char* part :
          {shader_text::fetch, shader_text::curve, shader_text::domain, shader_text::section,
-          shader_text::ground, shader_text::trace, shader_text::surface})
+          shader_text::ground, shader_text::trace, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
         text += part;
     text += stage == Stage::rays ? shader_text::rays_frag
                                  : (stage == Stage::top ? shader_text::top_frag : shader_text::surface_frag);
@@ -99,25 +119,32 @@ Program::~Program() {
     if (id_ != 0) gl_->DeleteProgram(id_);
 }
 
-DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textures, const PathDetail& detail)
+DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textures, const PathDetail& detail,
+                               const RgbaImage& residual)
     : gl_(gl),
       detail_(detail),
       sections_(textures.sections),
       data_width_(textures.data_width),
       grid_width_(textures.grid_width),
-      grid_height_(textures.grid_height) {
+      grid_height_(textures.grid_height),
+      has_residual_(residual.width > 0) {
     names_[0] = make_texture(gl, GL_RG32UI, GL_RG_INTEGER, grid_width_, grid_height_, textures.grid, 2);
     names_[1] =
         make_texture(gl, GL_RGBA32UI, GL_RGBA_INTEGER, data_width_, textures.data_height, textures.data, 4);
+    names_[2] = make_residual(gl, residual, detail.repeat);
 }
 
-DetailTextures::~DetailTextures() { gl_.DeleteTextures(2, names_); }
+DetailTextures::~DetailTextures() { gl_.DeleteTextures(3, names_); }
 
 void DetailTextures::bind(const Program& program) const {
     for (int i = 0; i < 2; ++i) {
         gl_.ActiveTexture(GLenum(GL_TEXTURE0 + i));
         gl_.BindTexture(GL_TEXTURE_2D, names_[i]);
     }
+    gl_.ActiveTexture(GLenum(GL_TEXTURE0 + kResidualUnit));
+    gl_.BindTexture(GL_TEXTURE_2D, names_[2]);
+    program.set("burin_residual", kResidualUnit);
+    program.set("burin_residual_scale", has_residual_ ? float(detail_.residual_scale) : 0.0f);
     program.set("burin_grid", 0);
     program.set("burin_data", 1);
     program.set("burin_data_width", data_width_);

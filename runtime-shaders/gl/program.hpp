@@ -6,6 +6,7 @@
 
 #include <burin/format/extension.hpp>
 #include <burin/format/texels.hpp>
+#include <burin/image_io.hpp>
 #include <burin/result.hpp>
 
 #include "gl/context.hpp"
@@ -39,10 +40,11 @@ class Program {
     GLuint id_;
 };
 
-// The two textures of a pattern on texture units 0 and 1.
+// The two textures of a pattern on texture units 0 and 1, and its residual, if it has one, on unit 3.
 class DetailTextures {
   public:
-    DetailTextures(const Functions& gl, const PackedTextures& textures, const PathDetail& detail);
+    DetailTextures(const Functions& gl, const PackedTextures& textures, const PathDetail& detail,
+                   const RgbaImage& residual = {});
     DetailTextures(const DetailTextures&) = delete;
     DetailTextures& operator=(const DetailTextures&) = delete;
     ~DetailTextures();
@@ -56,7 +58,8 @@ class DetailTextures {
     Sections sections_;
     int data_width_;
     int grid_width_, grid_height_;
-    GLuint names_[2] = {0, 0};
+    bool has_residual_;
+    GLuint names_[3] = {0, 0, 0};
 };
 
 // A framebuffer of RGBA float colours, with depth if asked.

@@ -11,6 +11,8 @@ void main() {
     BurinHit hit = burin_trace(ray, 0.0, burin_map.depth);
     BurinSurface surface = burin_surface(hit);
     // Floats hold 16 bits exactly.
+    vec2 place = hit.ray.origin + hit.ray.slope * hit.t;
+    vec3 shaded = burin_add_slopes(surface.normal, fetch_residual(place, vec2(0.0), vec2(0.0)));
     met = vec4(hit.t, float(hit.mark.element & 0xffffu), float(hit.mark.element >> 16), float(surface.facet));
-    normal = vec4(surface.normal, hit.met ? 1.0 : 0.0);
+    normal = vec4(shaded, hit.met ? 1.0 : 0.0);
 }

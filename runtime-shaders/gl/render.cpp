@@ -241,7 +241,7 @@ Scene load_scene(const gl::Functions& gl, const Asset& asset) {
         scene.meshes.push_back(std::make_unique<Mesh>(gl, primitive));
     for (const MaterialInfo& material : asset.materials)
         scene.details.push_back(
-            material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail)
+            material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail, material.residual)
                                 : nullptr);
     PackedTextures empty;
     empty.grid_width = empty.grid_height = empty.data_width = empty.data_height = 1;

@@ -7,7 +7,7 @@
 // World space is glTF's: right-handed, y up, metres. Directions are given as azimuth and elevation in
 // degrees: azimuth 0 is +z (in front of a model, at the lower edge of a plane), 90 is +x; elevation 90 is +y.
 // Shading: metallic-roughness of the glTF material or the pattern's override, one directional light, a soft
-// ambient term. Where a detail is drawn the core normal and occlusion textures are its fallback and are not
+// ambient term, the residual's slopes added to the paths' (SPECIFICATION.md, section 13). Where a detail is drawn the core normal and occlusion textures are its fallback and are not
 // used. Source: [2010] 5; perspective and shadows 5.6.
 #pragma once
 
@@ -91,10 +91,11 @@ struct ShadedHit {
     float normal[3];
 };
 
-// What the shader meets along each ray: one pixel of a float target per ray.
+// What the shader meets along each ray: one pixel of a float target per ray. `residual`: its normals are those to be
+// shaded, with the slopes of this picture, scaled as `detail` says.
 Result<std::vector<ShadedHit>> shade_rays(const PackedTextures& textures, const PathDetail& detail,
                                           std::span<const PatternRay> rays,
-                                          Backend backend = Backend::osmesa);
+                                          Backend backend = Backend::osmesa, const RgbaImage& residual = {});
 
 // Vendor, renderer and version of the backend's context, for reports.
 Result<std::string> describe_backend(Backend backend);

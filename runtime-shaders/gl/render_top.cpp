@@ -82,7 +82,7 @@ Result<Image> render_top(const Asset& asset, int width, int height, const TopOpt
 }
 
 Result<std::vector<ShadedHit>> shade_rays(const PackedTextures& packed, const PathDetail& detail,
-                                          std::span<const PatternRay> rays, Backend backend) {
+                                          std::span<const PatternRay> rays, Backend backend, const RgbaImage& residual) {
     auto context = gl::open_context(backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
@@ -90,7 +90,7 @@ Result<std::vector<ShadedHit>> shade_rays(const PackedTextures& packed, const Pa
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, kTile, kTile, 2, false);
     if (!target) return target.error();
-    const gl::DetailTextures textures(gl, packed, detail);
+    const gl::DetailTextures textures(gl, packed, detail, residual);
     const Screen screen(gl);
     GLuint given = 0;
     gl.GenTextures(1, &given);

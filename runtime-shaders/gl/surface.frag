@@ -75,6 +75,8 @@ void main() {
     if (everywhere == 0 && texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x == 0.0) discard;
     vec3 to_eye = dot(view, view) > 0.0 ? -view : normalize(eye - world_position);
     vec3 n = normalize(world_normal);
+    vec2 uv_along_x = dFdx(pattern_uv);
+    vec2 uv_along_y = dFdy(pattern_uv);
     if (dot(n, to_eye) < 0.0 && !gl_FrontFacing) n = -n;
     vec3 albedo = base_color.rgb;
     float metal = metallic;
@@ -90,7 +92,9 @@ void main() {
         ray.slope = slope_of(to_pattern * -to_eye);
         BurinHit hit = burin_trace(ray, 0.0, burin_map.depth);
         BurinSurface surface = burin_surface(hit);
-        shading_normal = normalize(transpose(to_pattern) * surface.normal);
+        vec2 place = hit.ray.origin + hit.ray.slope * hit.t;
+        vec3 detailed = burin_add_slopes(surface.normal, fetch_residual(place, uv_along_x, uv_along_y));
+        shading_normal = normalize(transpose(to_pattern) * detailed);
         BurinMaterial material = burin_material(surface.material);
         if (material.overrides) {
             albedo = material.base_color.rgb;

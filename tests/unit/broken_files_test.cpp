@@ -2,6 +2,7 @@
 // message, or, for what is merely unusual, a correct result. A crash, or 10 s of processor time for one file,
 // ends the program.
 #include <burin/heightmap.hpp>
+#include <burin/image_io.hpp>
 #include <burin/model.hpp>
 
 #include <gtest/gtest.h>
@@ -97,6 +98,20 @@ TEST_F(BrokenFiles, UnusualOnesGiveTheRightTexels) {
     ASSERT_TRUE(large.ok());
     EXPECT_EQ(large->image.width, 8500);
     EXPECT_EQ(large->image.height, 8146);
+}
+
+TEST_F(BrokenFiles, AsPictures) {
+    for (const std::string& file : files_) {
+        SCOPED_TRACE(fs::path(file).filename().string());
+        limit_seconds(10);
+        auto bytes = read_file(file, 1u << 30);
+        if (!bytes.ok()) continue;
+        const auto picture = decode_picture(std::move(*bytes), 1u << 24);
+        if (picture.ok())
+            EXPECT_EQ(picture->texels.size(), 4u * static_cast<unsigned>(picture->width) * static_cast<unsigned>(picture->height));
+        else
+            EXPECT_TRUE(says_something(picture.error())) << picture.error().message;
+    }
 }
 
 TEST_F(BrokenFiles, AsModels) {

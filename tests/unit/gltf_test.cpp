@@ -300,6 +300,91 @@ TEST(Gltf, AttachingWithoutFallbackTakesTheOldOneAway) {
     EXPECT_FALSE(document.contains("samplers"));
 }
 
+Residual small_residual() {
+    Residual residual;
+    residual.picture = {2, 1, {100, 140, 255, 255, 30, 220, 255, 255}};
+    residual.scale = 0.375;
+    auto png = encode_png(residual.picture);
+    EXPECT_TRUE(png.ok());
+    residual.png = *png;
+    return residual;
+}
+
+Bytes attach_residual(const Model& model, const Fallback& fallback, bool repeat = true, const AttachOptions& options = {}) {
+    PathDetail detail = small_detail();
+    detail.repeat = repeat;
+    auto glb = write_glb(model, small_textures(), detail, fallback, options, small_residual());
+    EXPECT_TRUE(glb.ok()) << (glb.ok() ? "" : glb.error().message);
+    return glb.ok() ? *glb : Bytes{};
+}
+
+const Json& residual_of(const Json& document) {
+    return document["materials"][0]["extensions"][std::string(kPathDetailExtension)]["residualTexture"];
+}
+
+TEST(Gltf, ResidualComesBackTexelForTexel) {
+    for (const bool repeat : {true, false}) {
+        const Bytes glb = attach_residual(make_plane({1, 1}), small_fallback(), repeat);
+        const auto asset = read_asset(glb);
+        ASSERT_TRUE(asset.ok()) << asset.error().message;
+        EXPECT_EQ(asset->materials[0].residual.texels, small_residual().picture.texels);
+        EXPECT_EQ(asset->materials[0].residual.width, 2);
+        EXPECT_EQ(asset->materials[0].detail.residual_scale, 0.375);
+        validate_glb(glb, [](const Issue& issue) { ADD_FAILURE() << issue.number << " " << issue.message; });
+        const Json document = json_of(glb);
+        // A texture of its own, beside the fallback's.
+        EXPECT_NE(residual_of(document)["index"], document["materials"][0]["normalTexture"]["index"]);
+        EXPECT_EQ(document["textures"].size(), 3u);
+        EXPECT_EQ(document["samplers"].size(), 1u);
+    }
+    const auto bare = read_asset(attach(make_plane({1, 1})));
+    ASSERT_TRUE(bare.ok());
+    EXPECT_EQ(bare->materials[0].residual.width, 0);
+    EXPECT_EQ(bare->materials[0].detail.residual_texture, -1);
+}
+
+TEST(Gltf, ResidualStandsInForAFallbackWithoutNormals) {
+    Fallback fallback = small_fallback();
+    fallback.normal = {};
+    const Json document = json_of(attach_residual(make_plane({1, 1}), fallback, true));
+    const Json& normal = document["materials"][0]["normalTexture"];
+    EXPECT_EQ(normal["index"], residual_of(document)["index"]);
+    EXPECT_EQ(normal["scale"], residual_of(document)["scale"]);
+    EXPECT_EQ(document["images"].size(), 2u);  // with the occlusion
+}
+
+TEST(Gltf, ResidualIsReplacedAndTakenAway) {
+    Fallback shared = small_fallback();
+    shared.normal = {};
+    const std::string text = rich_document().dump();
+    const Model model = model_of(Bytes(text.begin(), text.end()));
+    for (const Fallback& fallback : {small_fallback(), shared, Fallback{}}) {
+        const Bytes once = attach_residual(model, fallback);
+        EXPECT_EQ(attach_residual(model_of(once), fallback), once);
+        expect_no_leftovers(once);
+        // Without a residual nothing of it is left.
+        EXPECT_EQ(attach(model_of(once)), attach(model));
+    }
+    EXPECT_EQ(attach_residual(model_of(attach_residual(model, shared)), small_fallback()), attach_residual(model, small_fallback()));
+}
+
+TEST(Gltf, BrokenResidualsAreRefusedOnReading) {
+    const Bytes glb = attach_residual(make_plane({1, 1}), small_fallback());
+    const auto reads = [&](const std::function<void(Json&, Json&)>& change) {
+        Json document = json_of(glb);
+        change(document, document["materials"][0]["extensions"][std::string(kPathDetailExtension)]["residualTexture"]);
+        return read_asset(with_json(glb, document)).ok();
+    };
+    EXPECT_TRUE(reads([](Json&, Json&) {}));
+    EXPECT_FALSE(reads([](Json&, Json& r) { r["index"] = 9; }));
+    EXPECT_FALSE(reads([](Json&, Json& r) { r["scale"] = -1.0; }));
+    EXPECT_FALSE(reads([](Json& d, Json& r) { d["textures"][r["index"].get<std::size_t>()].erase("source"); }));
+    // Words of the grid are no picture.
+    EXPECT_FALSE(reads([](Json& d, Json& r) {
+        d["images"][d["textures"][r["index"].get<std::size_t>()]["source"].get<std::size_t>()]["bufferView"] = 0;
+    }));
+}
+
 // Two materials with patterns: replacing the first moves nothing of the second, nor of what refers to its
 // textures.
 TEST(Gltf, ReplacingThePatternOfOneMaterialKeepsTheOthers) {

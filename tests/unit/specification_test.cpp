@@ -104,10 +104,12 @@ TEST(Specification, SchemasRequireWhatTheReaderRequires) {
     detail.grid_view = detail.data_view = 0;
     detail.grid_width = detail.grid_height = detail.data_width = detail.data_height = 1;
     detail.sections.material_texels = 1;
+    detail.residual_texture = 0;
     const nlohmann::json extension = nlohmann::json::parse(write_extension(detail));
     expect_required(extension, "", schema(""));
     expect_required(extension, "grid", schema(".grid"));
     expect_required(extension, "data", schema(".data"));
+    expect_required(extension, "residualTexture", schema(".residual"));
     const auto limit = [](const char* name) {
         return schema(".data")["properties"][name]["maximum"].get<int>();
     };

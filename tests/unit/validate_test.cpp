@@ -155,6 +155,26 @@ void add_view_cases(std::map<int, Bytes>& cases) {
         broken_document([](json& d) { d["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0"); });
 }
 
+// A document with a residual that is right, changed by `change`.
+Bytes broken_residual(const std::function<void(json& document, json& residual)>& change) {
+    return broken_document([&](json& d) {
+        d["images"] = json::array({{{"uri", "residual.png"}}});
+        d["samplers"] = json::array({{{"wrapS", 10497}}});
+        d["textures"] = json::array({{{"source", 0}, {"sampler", 0}}});
+        json& residual = d["materials"][0]["extensions"][std::string(kPathDetailExtension)]["residualTexture"];
+        residual = {{"index", 0}, {"scale", 0.5}, {"texCoord", 0}};
+        change(d, residual);
+    });
+}
+
+void add_residual_cases(std::map<int, Bytes>& cases) {
+    cases[2023] = broken_residual([](json&, json& r) { r["index"] = 1; });
+    cases[2024] = broken_residual([](json& d, json&) { d["textures"][0]["source"] = 1; });
+    cases[2025] = broken_residual([](json&, json& r) { r["scale"] = 0.0; });
+    cases[2026] = broken_residual([](json&, json& r) { r["texCoord"] = 1; });
+    cases[2027] = broken_residual([](json& d, json&) { d["samplers"][0]["wrapS"] = 33071; });
+}
+
 void add_grid_cases(std::map<int, Bytes>& cases) {
     cases[3001] = broken_cell(0, 1, [](CellCode& c) { c.first_reference = 500; });
     cases[3002] = broken_cell(4, 3, [](CellCode& c) { c.first_reference = 1; });
@@ -215,6 +235,7 @@ std::map<int, Bytes> all_cases() {
     add_container_cases(cases);
     add_extension_cases(cases);
     add_view_cases(cases);
+    add_residual_cases(cases);
     add_grid_cases(cases);
     add_element_cases(cases);
     add_data_cases(cases);
@@ -224,6 +245,23 @@ std::map<int, Bytes> all_cases() {
 TEST(Validate, SampleIsValid) {
     const Bytes bytes = broken_bytes([](Bytes&) {});
     EXPECT_EQ(text_of(bytes), "");
+}
+
+TEST(Validate, ResidualIsCheckedPartByPart) {
+    const auto numbers = [](const std::function<void(json&, json&)>& change) { return numbers_of(broken_residual(change)); };
+    const std::set<int> none, type{2005}, missing{2004}, no_texture{2023}, no_image{2024};
+    EXPECT_EQ(numbers([](json&, json&) {}), none);
+    EXPECT_EQ(numbers([](json&, json& r) { r.erase("scale"), r.erase("texCoord"); }), none);
+    EXPECT_EQ(numbers([](json&, json& r) { r = "none"; }), type);
+    EXPECT_EQ(numbers([](json&, json& r) { r["index"] = "first"; }), type);
+    EXPECT_EQ(numbers([](json&, json& r) { r["scale"] = "much"; }), type);
+    EXPECT_EQ(numbers([](json&, json& r) { r.erase("index"); }), missing);
+    EXPECT_EQ(numbers([](json&, json& r) { r["index"] = -1; }), no_texture);
+    EXPECT_EQ(numbers([](json& d, json&) { d.erase("textures"); }), no_texture);
+    EXPECT_EQ(numbers([](json& d, json&) { d["textures"][0] = 5; }), no_texture);
+    EXPECT_EQ(numbers([](json& d, json&) { d["images"][0] = {{"bufferView", 0}, {"mimeType", "image/gif"}}; }), no_image);
+    EXPECT_EQ(numbers([](json& d, json&) { d["images"][0] = {{"bufferView", 9}, {"mimeType", "image/png"}}; }), no_image);
+    EXPECT_EQ(numbers([](json& d, json&) { d["images"][0] = {{"bufferView", 0}, {"mimeType", "image/png"}}; }), none);
 }
 
 TEST(Validate, EveryNumberHasAFileThatBreaksOnlyIt) {

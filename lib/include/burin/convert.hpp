@@ -5,6 +5,7 @@
 //
 //     vectorize -> resolve -> grid -> pack -> measure -> refine -> (again from resolve) | -> bake -> glTF
 //                                                                          find_pattern | convert_map
+//     (bake: the fallback of the core material, and the residual)
 //
 // The figures are measured on the bytes that are written: the textures are unpacked again, rasterized by the evaluator
 // and compared with the map (DESIGN 7). Nothing a stage estimates stands in for them.
@@ -22,6 +23,7 @@
 #include <burin/model.hpp>
 #include <burin/pack.hpp>
 #include <burin/refine.hpp>
+#include <burin/residual.hpp>
 #include <burin/resolve.hpp>
 #include <burin/result.hpp>
 #include <burin/vectorize.hpp>
@@ -37,6 +39,9 @@ struct ConvertOptions {
     GridOptions grid;
     PackOptions pack;
     FallbackOptions fallback;
+    // Of convert_map. `most_texels` left at its default: at most 1/64 of the map's texels where the paths explain
+    // kWellExplained or more. Without any path the residual is the core material's normal map too, and always worthwhile.
+    ResidualOptions residual;
     AttachOptions attach;
     // Bound on both textures together, as uploaded: elements are given up until they fit. 0: no bound, but they are given
     // up, as far as that goes, beyond a sixteenth of the map's 8-bit size (16 KiB for small maps, 63 KiB up to 2048 x 2048).
@@ -48,6 +53,8 @@ struct ConvertOptions {
     double max_error = 0.0;
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
+
+inline constexpr double kWellExplained = 0.97;
 
 // Why the pattern was not refined, or the refined one not kept.
 enum class Unrefined {
@@ -67,7 +74,7 @@ enum class Unrefined {
 // is measured with fewer samples, within 0.0005.
 struct ExplainedShares {
     double steps = 0.0, lines = 0.0;
-    double left = 1.0;  // by neither; the fallback maps carry it
+    double left = 1.0;  // by neither; the normal maps carry it
 };
 
 struct ConvertStats {
@@ -100,6 +107,7 @@ struct FoundPattern {
 };
 
 struct Converted : FoundPattern {
+    Residual residual;  // as stored in the glb
     std::vector<std::uint8_t> glb;
 };
 
@@ -115,7 +123,7 @@ Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& op
 
 // Requires: the model was checked with find_material, or its error is welcome late.
 // Ensures, fails: as find_pattern; the bytes depend on map, model and options alone.
-// Cost: find_pattern, and the fallback maps.
+// Cost: find_pattern, and the fallback maps and the residual: a few percent on top.
 Result<Converted> convert_map(const HeightMap& map, const Model& model, const ConvertOptions& options = {},
                               const Progress& progress = {});
 

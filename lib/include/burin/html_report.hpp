@@ -31,7 +31,8 @@ struct ReportText {
 // eight at most, do not overlap; the one that errs most comes first.
 // Ensures: equal input gives equal bytes, whatever the number of threads.
 // Fails as reconstruct_heights. Cost: below a second for 1024 x 1024; about a megabyte.
+// `residual`: of a conversion; it is shown, with the angles of the normals.
 Result<std::string> write_html_report(const HeightMap& map, const FoundPattern& found, const Image& reconstruction,
-                                      const ReportText& text, int threads = 0);
+                                      const ReportText& text, const Residual* residual = nullptr, int threads = 0);
 
 }  // namespace burin

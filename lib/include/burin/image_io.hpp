@@ -31,6 +31,10 @@ struct RgbaImage {
 // row; up to 1 MiB of rows, four tries at level 9.
 Result<std::vector<std::uint8_t>> encode_png(const RgbaImage& image);
 
+// The texels of a PNG or JPEG as they are stored, 8 bits of each channel. Input is not trusted, as in heightmap.hpp.
+// Fails with unsupported, invalid_input, limit_exceeded (more than max_texels); the messages do not name a file.
+Result<RgbaImage> decode_picture(std::vector<std::uint8_t> bytes, std::uint64_t max_texels);
+
 Status write_png(const std::string& path, const RgbaImage& image);
 
 // Heights of one channel by suffix: .exr and .tif/.tiff as 32-bit float, .png as 16-bit grey (values must lie

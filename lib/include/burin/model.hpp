@@ -26,6 +26,7 @@
 #include <burin/format/extension.hpp>
 #include <burin/format/texels.hpp>
 #include <burin/geometry.hpp>
+#include <burin/residual.hpp>
 #include <burin/result.hpp>
 
 namespace burin {
@@ -91,17 +92,19 @@ Result<MaterialTarget> find_material(const Model& model, const AttachOptions& op
 // The document with the pattern on one material, as binary glTF 2.0 that stands alone.
 // Adds: two bufferViews with the textures (32-bit little-endian words, row-major), the extension
 // BURIN_materials_path_detail on the material (listed in extensionsUsed only), and the fallback as PNG in the
-// core material: normalTexture, and occlusionTexture unless the material has one. A normalTexture that the
+// core material: normalTexture, and occlusionTexture unless the material has one. The residual, if there is one, becomes
+// the extension's residualTexture, with a sampler that wraps like the pattern; where the fallback has no normal map, it is
+// the core material's normalTexture too, and stored once. A normalTexture that the
 // material had gives way to the fallback, which every viewer understands; what it was is kept under the
 // material's extras as "burin_replaced_normal_texture", its texture and image stay in the file. A pattern
 // that the material already carries is replaced with its fallback: what both occupied is used again or left
 // out, as far as nothing else in the document refers to it and no index of anything else changes, so that
-// attaching twice gives the bytes of attaching once. `detail` is taken as given, but its buffer views are set
-// here. Fails as find_material does, and with limit_exceeded when the result passes 4 GiB. Equal input gives
+// attaching twice gives the bytes of attaching once. `detail` is taken as given, but its buffer views and
+// residual are set here. Fails as find_material does, and with limit_exceeded when the result passes 4 GiB. Equal input gives
 // equal bytes.
 Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedTextures& textures,
                                             const PathDetail& detail, const Fallback& fallback,
-                                            const AttachOptions& options = {});
+                                            const AttachOptions& options = {}, const Residual& residual = {});
 
 // Triangles of one material, as the default scene shows them: node transforms applied, one entry for each
 // node and primitive. Points and lines are left out; strips and fans are unrolled.
@@ -124,6 +127,7 @@ struct MaterialInfo {
     bool has_detail = false;  // then the two below hold
     PathDetail detail;
     PackedTextures textures;
+    RgbaImage residual;      // what the residualTexture shows; width 0: there is none
 };
 
 struct Asset {
@@ -134,7 +138,8 @@ struct Asset {
 
 // Reads glTF or glb. The textures are checked for what reading needs: views, sizes, section lengths; whether
 // their content keeps every rule of the format is validate_glb's business, and unpack_textures is safe on any
-// content. Fails as read_model does, and with invalid_input when an extension object does not parse.
+// content. A residual is decoded. Fails as read_model does, and with invalid_input when an extension object does not parse
+// or its residual cannot be read.
 Result<Asset> read_asset(std::span<const std::uint8_t> bytes, const std::string& base_folder = {});
 
 }  // namespace burin

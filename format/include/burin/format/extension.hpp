@@ -5,7 +5,8 @@
 //         "wrap": "repeat", "texCoord": 0,
 //         "grid": { "bufferView": 3, "width": 32, "height": 32 },
 //         "data": { "bufferView": 4, "width": 20, "height": 19,
-//                   "elements": 210, "styles": 9, "profiles": 18, "materials": 1, "lists": 140 } } }
+//                   "elements": 210, "styles": 9, "profiles": 18, "materials": 1, "lists": 140 },
+//         "residualTexture": { "index": 0, "scale": 0.3 } } }
 //
 // Meaning of each property: BURIN_materials_path_detail/README.md. The name goes into `extensionsUsed` only.
 #pragma once
@@ -33,6 +34,8 @@ struct PathDetail {
     int grid_width = 0, grid_height = 0;  // cells
     int data_width = 0, data_height = 0;  // texels
     Sections sections;
+    int residual_texture = -1;    // "residualTexture": index into the document's textures; -1: there is none
+    double residual_scale = 1.0;  // slope that a full red or green stands for, (0, 1e9]
 };
 
 // The extension object as compact JSON. Numbers are written so that parse_extension gives them back bit by
@@ -40,8 +43,8 @@ struct PathDetail {
 std::string write_extension(const PathDetail& detail);
 
 // Reads the extension object (the value, without its name). Unknown properties are passed over, as glTF asks;
-// `wrap`, `texCoord`, `baseOffset` and `outerLevel` have defaults ("repeat", 0, 0, 0), the others are
-// required. Fails with invalid_input, naming property and value: not JSON, a property missing, of wrong type
+// `wrap`, `texCoord`, `baseOffset` and `outerLevel` have defaults ("repeat", 0, 0, 0), `residualTexture` may
+// be absent, the others are required. Fails with invalid_input, naming property and value: not JSON, a property missing, of wrong type
 // or out of its range (the ranges above and layout.h's limits), sections that do not fit into the data
 // texture; unsupported: another version.
 Result<PathDetail> parse_extension(std::string_view json);
