@@ -97,6 +97,25 @@ TEST(VectorizeMaps, BoltsAndSlotsAreOnePathEach) {
     EXPECT_LT(r.contour.rms, 0.05);
 }
 
+// Discs of any size, high and low: the small ones are dots, the large ones outlines, and none is lost.
+TEST(VectorizeMaps, DiscsAreOnePathEach) {
+    Uniform random(seed_of_run());
+    for (const double wall : {0.4, 2.0}) {
+        DrawnMap map(wall, 0.5);
+        const Pen rise = map.pens().step(0.4), pit = map.pens().step(-0.4);
+        for (int i = 0; i < 25; ++i) {
+            const Vec2 c = Vec2{28.0 + 50.0 * (i % 5), 28.0 + 50.0 * (i / 5)} + Vec2{random(-1, 1), random(-1, 1)};
+            map.draw(random(0, 1) < 0.5 ? rise : pit, circle(c, random(1.5, i % 5 == 0 ? 20.0 : 8.0)));
+        }
+        const Recovered r = recovered_from(map.take());
+        report("discs", r);
+        EXPECT_EQ(r.structure.paths.recovered, r.structure.paths.authored);
+        EXPECT_GE(r.structure.paths.matched, r.structure.paths.authored - 1);
+        EXPECT_EQ(r.contour.lost, 0.0);
+        EXPECT_LT(r.contour.rms, 0.04);
+    }
+}
+
 TEST(VectorizeMaps, RaggedEdgesStayOneOutline) {
     Uniform random(seed_of_run());
     DrawnMap map(1.0, 0.4);
