@@ -206,7 +206,8 @@ Path make_path(const FittedChain& fitted, const Units& units, const Regions& reg
     Path path;
     path.closed = fitted.chain.closed;
     path.profile = fitted.profile;
-    if (fitted.chain.spot == Spot::round) path.start_cap = path.end_cap = CapKind::round;
+    if (fitted.round_start) path.start_cap = CapKind::round;
+    if (fitted.round_end) path.end_cap = CapKind::round;
     for (Element e : fitted.elements) {
         e.p0 = units.point(e.p0);
         e.p1 = units.point(e.p1);
@@ -349,6 +350,7 @@ Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, 
     if (!proceed(0.6)) return stopped();
     const ProfileSet set = measure_profiles(fitted, map.image, lattice, regions, profile_options(traced, options));
     drop_useless(fitted, traced.energy, budget);
+    choose_caps(fitted, set, map.image, lattice, regions);
     if (!proceed(0.8)) return stopped();
     const Wrap wrap = lattice.wrap ? Wrap::repeat : Wrap::clamp;
     result.pattern = make_pattern(fitted, set, regions, lattice, options, wrap);

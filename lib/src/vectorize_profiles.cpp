@@ -270,10 +270,26 @@ std::size_t count_step_kinds(const std::vector<FittedChain>& chains, const Regio
     return kinds.size();
 }
 
-double value_at(const Profile& profile, double b, bool& inside) {
+void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map,
+                   const std::vector<Owner>& owners, const Regions& regions) {
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+        if (owners[i].chain == kNoChain) continue;
+        FittedChain& fitted = chains[owners[i].chain];
+        if (fitted.chain.kind == ChainKind::step) continue;
+        const Profile& profile = set.profiles[fitted.profile];
+        const bool inside = owners[i].offset >= profile.points.front().b && owners[i].offset <= profile.points.back().b;
+        if (!inside || owners[i].beyond) continue;
+        const double h = height_at(profile, owners[i].offset);
+        const double d = map.texels[i] - regions.level[regions.at(i)];
+        fitted.gain += d * d - (d - h) * (d - h);
+    }
+}
+
+}  // namespace
+
+double height_at(const Profile& profile, double b) {
     const auto& p = profile.points;
-    inside = b >= p.front().b && b <= p.back().b;
-    if (!inside) return b < 0.0 ? p.front().h : p.back().h;
+    if (b < p.front().b) return p.front().h;
     for (std::size_t k = 1; k < p.size(); ++k)
         if (b <= p[k].b) {
             const double w = p[k].b - p[k - 1].b;
@@ -281,22 +297,6 @@ double value_at(const Profile& profile, double b, bool& inside) {
         }
     return p.back().h;
 }
-
-void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map,
-                   const std::vector<Owner>& owners, const Regions& regions) {
-    for (std::size_t i = 0; i < owners.size(); ++i) {
-        if (owners[i].chain == kNoChain) continue;
-        FittedChain& fitted = chains[owners[i].chain];
-        if (fitted.chain.kind == ChainKind::step) continue;
-        bool inside = false;
-        const double h = value_at(set.profiles[fitted.profile], owners[i].offset, inside);
-        if (!inside || owners[i].beyond) continue;
-        const double d = map.texels[i] - regions.level[regions.at(i)];
-        fitted.gain += d * d - (d - h) * (d - h);
-    }
-}
-
-}  // namespace
 
 ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, const Lattice& lattice,
                             Regions& regions, const ProfileOptions& options) {
