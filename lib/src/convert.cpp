@@ -205,6 +205,8 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
                              const Progress& progress, StageClock& clock, int most_elements = 0) {
     const bool asked = options.max_texture_bytes > 0;
     const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
+    // A budget that was not asked for may be passed by a quarter: less is missed than what would be given up.
+    const std::size_t most_bytes = asked ? budget : budget + budget / 4;
     VectorizeOptions vectorize = vectorize_options(options);
     vectorize.shading = source.shading;
     if (most_elements > 0) vectorize.most_elements = most_elements;
@@ -216,7 +218,7 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
         if (!candidate) return candidate.error();
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
         candidate->most_elements = vectorize.most_elements;
-        if (candidate->bytes() <= budget || attempt == most_attempts || elements <= fewest)
+        if (candidate->bytes() <= most_bytes || attempt == most_attempts || elements <= fewest)
             return measure_candidate(std::move(*candidate), source.map, options, clock);
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
         const double share = 0.85 * static_cast<double>(budget) / static_cast<double>(candidate->bytes());

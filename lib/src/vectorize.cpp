@@ -137,19 +137,19 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
     result.tolerance = options.tolerance > 0.0 ? options.tolerance : 0.3;
     // Polylines are fast and tell how many elements to expect; the curves, which need fewer, are fitted once at the end.
     const std::size_t most = budget * 5 / 4;
-    std::size_t lines = count_lines(traced.lines, result.tolerance), steps = count_lines(traced.steps, result.tolerance);
+    std::size_t lines = foretell_elements(traced.lines, result.tolerance), steps = foretell_elements(traced.steps, result.tolerance);
     std::vector<Chain> fewer_steps;
     result.shaded = options.shading && std::any_of(regions.borders.begin(), regions.borders.end(),
                                                    [](const auto& border) { return border.second.is_ramp(); });
     if (!options.shading) {
         merge_regions({result.noise, share * energy, false}, regions);
         fewer_steps = trace_steps(map, traced.changed, lattice, regions);
-        steps = count_lines(fewer_steps, result.tolerance);
+        steps = foretell_elements(fewer_steps, result.tolerance);
     }
     while (options.tolerance == 0.0 && lines + steps > most && result.tolerance * 1.4 <= loosest) {
         result.tolerance *= 1.4;
-        lines = count_lines(traced.lines, result.tolerance);
-        steps = count_lines(options.shading ? traced.steps : fewer_steps, result.tolerance);
+        lines = foretell_elements(traced.lines, result.tolerance);
+        steps = foretell_elements(options.shading ? traced.steps : fewer_steps, result.tolerance);
     }
     for (int round = 0; round < 8 && steps > most * 3 / 4; ++round) {
         share *= 2.0;
@@ -157,7 +157,7 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
         merge_regions({result.noise, share * energy, options.shading}, regions);
         if (regions.level.size() == before) continue;
         fewer_steps = trace_steps(map, traced.changed, lattice, regions);
-        steps = count_lines(fewer_steps, result.tolerance);
+        steps = foretell_elements(fewer_steps, result.tolerance);
     }
     const bool merged = !options.shading || regions.level.size() < traced.regions.level.size();
     return join(fit_chains(traced.lines, map, lattice, result.tolerance, threads),

@@ -39,7 +39,8 @@ struct ConvertOptions {
     FallbackOptions fallback;
     AttachOptions attach;
     // Bound on both textures together, as uploaded: elements are given up until they fit. 0: no bound, but they are given
-    // up, as far as that goes, beyond a sixteenth of the map's 8-bit size (16 KiB for small maps, 63 KiB up to 2048 x 2048).
+    // up, as far as that goes, where a sixteenth of the map's 8-bit size (16 KiB for small maps, 63 KiB up to 2048 x 2048)
+    // is passed by more than a quarter.
     std::size_t max_texture_bytes = 0;
     // Bound on the 99.9th percentile of the height error (ConvertStats::p999), a share of the range: curves are fitted
     // ever closer until at most 1 texel in 1000 errs by more. 0: no bound. Range [0, 1]; without effect on
