@@ -101,8 +101,11 @@ void find_features(const Image& source, Traced& traced) {
         tie_lines(ridges, restored_response(map, erased_ridges, wide, ChainKind::ridge, radius, noise), wide);
     traced.lines = std::move(grooves);
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
+    std::vector<Chain> spots;
     for (const ChainKind kind : {ChainKind::groove, ChainKind::ridge})
-        for (Chain& spot : trace_spots(map, wide, kind, radius, noise, energy)) traced.lines.push_back(std::move(spot));
+        for (Chain& spot : trace_spots(map, wide, kind, radius, noise, energy)) spots.push_back(std::move(spot));
+    drop_crumbs(spots, traced.lines, wide);
+    for (Chain& spot : spots) traced.lines.push_back(std::move(spot));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
     const Image flattened = margin > 0 ? crop_margin(map, margin, lattice) : std::move(map);
     map = {};
