@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "../resolution/drawing.hpp"
 #include "skeleton.hpp"
 
 namespace burin::bench {
@@ -150,6 +151,41 @@ class Outlining {
     double texel_;
 };
 
+// Width at half its height of a groove or ridge.
+double width_of(const Profile& profile) {
+    const std::vector<ProfilePoint>& points = profile.points;
+    double half = 0.0;
+    for (const ProfilePoint& p : points) half = std::abs(p.h) > std::abs(half) ? p.h : half;
+    half *= 0.5;
+    double first = points.back().b, last = points.front().b;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const ProfilePoint &a = points[i], &b = points[i + 1];
+        if ((a.h < half) == (b.h < half)) continue;
+        const double at = a.b + (b.b - a.b) * (half - a.h) / (b.h - a.h);
+        first = std::min(first, at), last = std::max(last, at);
+    }
+    return std::max(0.0, last - first);
+}
+
+// Dots and slots, straight strokes with round ends, as the outlines of their walls: the surface is the same.
+Pattern with_outlined_slots(Pattern pattern) {
+    constexpr double kHalfTexel = 0.5 / 512.0;
+    pattern.profiles.push_back({{{-kHalfTexel, 0.0}, {kHalfTexel, 1e-3 * pattern.depth}}, {}});
+    for (Path& path : pattern.paths) {
+        const bool round = path.start_cap == CapKind::round && path.end_cap == CapKind::round;
+        const bool straight = path.elements.size() == 1 && path.elements[0].kind == ElementKind::line;
+        const double radius = 0.5 * width_of(pattern.profiles[path.profile]);
+        if (path.closed || !round || !straight || radius == 0.0) continue;
+        const Vec2 middle = lerp(path.elements[0].p0, path.elements[0].p2, 0.5), way = path.elements[0].p2 - path.elements[0].p0;
+        const double scale = pattern.size.x / kSheet, r = radius / scale, reach = 0.5 * length(way) / scale;
+        const Stroke outline = reach < 0.25 ? circle({}, r) : slab({}, {reach + r, r}, r, std::atan2(way.y, way.x));
+        path.elements = outline.placed(scale, 0.0, middle).elements();
+        path.closed = true;
+        path.profile = static_cast<std::uint32_t>(pattern.profiles.size() - 1);
+    }
+    return pattern;
+}
+
 StructureScore compare_skeletons(const Skeleton& authored, const Skeleton& recovered, const Sheet& sheet) {
     StructureScore score;
     score.paths = match_strands(authored.strands, recovered.strands, sheet, score.misses);
@@ -178,11 +214,17 @@ double StructureScore::percent() const {
 
 StructureScore compare_structure(const Pattern& authored, const Pattern& recovered, int texels) {
     const Sheet sheet{static_cast<double>(texels), authored.wrap == Wrap::repeat};
-    const Skeleton a = skeleton_of(authored, sheet), r = skeleton_of(recovered, sheet);
-    StructureScore as_drawn = compare_skeletons(a, r, sheet);
-    const Pattern outlined = Outlining(authored, a, as_drawn.misses, sheet).run();
-    StructureScore as_outlines = compare_skeletons(skeleton_of(outlined, sheet), r, sheet);
-    return as_outlines.percent() > as_drawn.percent() ? as_outlines : as_drawn;
+    const Skeleton drawn = skeleton_of(authored, sheet);
+    StructureScore best;
+    bool any = false;
+    for (const Pattern& found : {recovered, with_outlined_slots(recovered)}) {
+        const Skeleton r = skeleton_of(found, sheet);
+        const StructureScore as_drawn = compare_skeletons(drawn, r, sheet);
+        const Pattern outlined = Outlining(authored, drawn, as_drawn.misses, sheet).run();
+        for (const StructureScore& score : {as_drawn, compare_skeletons(skeleton_of(outlined, sheet), r, sheet)})
+            if (!any || score.percent() > best.percent()) best = score, any = true;
+    }
+    return best;
 }
 
 }  // namespace burin::bench

@@ -46,7 +46,8 @@ struct StructureScore {
 // within 2 texels. Each serves once.
 //
 // A straight stroke of 10 texels or more that meets nothing may as well be recovered as the outline of its walls: where it
-// is missed, the better score counts.
+// is missed, the better score counts. So may a dot or slot, a straight stroke with round ends, stand for the outline of its
+// walls, where all of them do.
 //
 // Both patterns cover one tile of texels x texels; when they repeat, places are compared across the border.
 // Cost: some microseconds per texel of path, and the square of the number of nodes.

@@ -440,7 +440,9 @@ Result<State> refine_finely(const Refinement& refinement, const Pattern& rough, 
     if (deviation_of(close->prediction.residuals) > kClean) return close;
     if (options.profiles) keep_simpler(refinement, model, *close, report);
     model = exact_model(deviation_of(close->prediction.residuals));
-    return refinement.run(close->pattern, model, report);
+    Result<State> exact = refinement.run(close->pattern, model, report);
+    if (exact && options.profiles) keep_simpler(refinement, model, *exact, report);
+    return exact;
 }
 
 }  // namespace

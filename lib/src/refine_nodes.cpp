@@ -67,7 +67,7 @@ class NodeBuilder {
         for (std::size_t path = 0; path < pattern_.paths.size(); ++path) tie_joints(static_cast<int>(path));
         fill_buckets();
         for (std::size_t path = 0; path < pattern_.paths.size(); ++path) {
-            if (pattern_.paths[path].closed || pattern_.paths[path].elements.empty()) continue;
+            if (pattern_.paths[path].closed || pattern_.paths[path].elements.empty() || is_dot(path)) continue;
             attach_end(static_cast<int>(path), true);
             attach_end(static_cast<int>(path), false);
         }
@@ -109,7 +109,22 @@ class NodeBuilder {
         return {node, offset};
     }
 
+    // As resolve.hpp says: it meets nothing. It is moved as a whole, or its ends would run into each other.
+    bool is_dot(std::size_t path) const {
+        const Path& p = pattern_.paths[path];
+        return !p.closed && p.elements.size() == 1 && p.elements[0].kind == ElementKind::line &&
+               chord(p.elements[0]) <= 2.0 * snap_;
+    }
+
+    void add_dot(int path) {
+        const Element& e = pattern_.paths[path].elements[0];
+        const Vec2 offset = tile_of(e.p0);
+        const int node = new_node(e.p0 - offset);
+        out_.elements_.push_back({{NodeUse{node, offset}, NodeUse{}, NodeUse{node, offset + (e.p2 - e.p0)}}});
+    }
+
     void add_points(int path) {
+        if (is_dot(static_cast<std::size_t>(path))) return add_dot(path);
         const std::vector<Element>& elements = pattern_.paths[path].elements;
         std::vector<Nodes::ElementNodes> uses(elements.size());
         for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -182,6 +197,7 @@ class NodeBuilder {
 
     void fill_buckets() {
         for (std::size_t path = 0; path < pattern_.paths.size(); ++path) {
+            if (is_dot(path)) continue;
             const std::vector<Element>& elements = pattern_.paths[path].elements;
             for (std::size_t i = 0; i < elements.size(); ++i) {
                 const Element& e = elements[i];

@@ -34,9 +34,12 @@ bool is_symmetric(const Profile& profile) {
     return true;
 }
 
-// Two points and no ground in between: a bare step, whose place is the path's.
+// A step that is as wide to both sides: its place is the path's. Else all rims could move outwards and their profile inwards.
 bool is_centred_step(const Profile& profile) {
-    return is_step(profile) && std::abs(profile.points.front().b + profile.points.back().b) < kSameOffset;
+    const std::size_t count = profile.points.size();
+    for (std::size_t i = 0; i < count; ++i)
+        if (std::abs(profile.points[i].b + profile.points[count - 1 - i].b) > kSameOffset) return false;
+    return is_step(profile);
 }
 
 double mean_scale(const Pattern& pattern, std::size_t profile) {
@@ -306,9 +309,7 @@ void Parameters::number_offsets(const Profile& profile, bool narrow, ProfileTerm
     int last = -1;
     for (std::size_t i = 0; i < count; ++i) {
         const ProfilePoint& point = profile.points[i];
-        const bool pair = mirrored && i >= (count + 1) / 2;
-        const bool pairable = is_symmetric(profile) || i == 0 || i + 1 == count;
-        if (pair && pairable) {
+        if (mirrored && i >= (count + 1) / 2) {
             for (const Term& term : terms.b[count - 1 - i]) terms.b[i].push_back({term.unknown, -term.factor});
             continue;
         }

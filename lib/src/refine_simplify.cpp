@@ -11,6 +11,7 @@ constexpr double kHeightShare = 0.03;    // of a profile's relief: what a droppe
 constexpr double kOffsetTexels = 0.2;    // ... or in place; either makes it droppable
 constexpr double kSymmetryShare = 0.05;  // of the relief
 constexpr double kSymmetryTexels = 0.3;
+constexpr double kCentreTexels = 3.0;    // that a bare step may stand beside its rim
 constexpr double kGroundShare = 0.01;    // of the relief: an end facet that rises less is ground
 
 double relief_of(const Profile& profile) {
@@ -54,13 +55,13 @@ std::size_t first_off_ground(const std::vector<ProfilePoint>& points, std::size_
 
 bool simplify(Profile& profile) {
     const double relief = relief_of(profile);
-    if (profile.points.size() < 4 || relief <= 0.0 || !profile.facets.empty()) return false;
     std::vector<ProfilePoint> points = profile.points;
     const bool step = points.front().h != points.back().h;
+    if (points.size() < (step ? 3u : 4u) || relief <= 0.0 || !profile.facets.empty()) return false;
     const double left = points.front().h, right = points.back().h;
     const std::size_t first = first_off_ground(points, 0, 1, kGroundShare * relief);
     const std::size_t last = first_off_ground(points, points.size() - 1, -1, kGroundShare * relief);
-    if (last <= first + 1) return false;
+    if (last < first + (step ? 1 : 2)) return false;
     points[first].h = left;
     points[last].h = right;
     std::vector<char> keep(points.size(), 0);
@@ -75,13 +76,23 @@ bool simplify(Profile& profile) {
     return true;
 }
 
-// A bare step stands in the middle of its wall; the path moves there by itself.
-bool centre_step(std::vector<ProfilePoint>& points) {
-    const double off = 0.5 * (points.front().b + points.back().b);
-    if (points.size() != 2 || off == 0.0 || std::abs(off) > kSymmetryTexels) return false;
-    points[0].b -= off;
-    points[1].b -= off;
-    return true;
+// A step of more facets has its point, the turned middle, where both halves are alike; a bare one always.
+bool centre_step(std::vector<ProfilePoint>& points, double relief) {
+    const std::size_t count = points.size();
+    const double rise = points.back().h - points.front().h;
+    bool already = true;
+    for (std::size_t i = 0; i < (count + 1) / 2; ++i) {
+        const ProfilePoint &a = points[i], &b = points[count - 1 - i];
+        const double tilt = a.h + b.h - 2.0 * points.front().h - rise;
+        if (std::abs(a.b + b.b) > 2.0 * kSymmetryTexels || std::abs(tilt) > kSymmetryShare * relief) return false;
+        already &= a.b == -b.b;
+    }
+    for (std::size_t i = 0; i < (count + 1) / 2; ++i) {
+        ProfilePoint &a = points[i], &b = points[count - 1 - i];
+        const double offset = 0.5 * (b.b - a.b);
+        a.b = -offset, b.b = offset;
+    }
+    return !already;
 }
 
 bool symmetrize(Profile& profile) {
@@ -89,7 +100,7 @@ bool symmetrize(Profile& profile) {
     const std::size_t count = points.size();
     const double relief = relief_of(profile);
     if (relief <= 0.0 || !profile.facets.empty()) return false;
-    if (points.front().h != points.back().h) return centre_step(points);
+    if (points.front().h != points.back().h) return centre_step(points, relief);
     bool already = true;
     for (std::size_t i = 0; i < count / 2; ++i) {
         const ProfilePoint &a = points[i], &b = points[count - 1 - i];
@@ -107,6 +118,38 @@ bool symmetrize(Profile& profile) {
     return true;
 }
 
+Vec2 start_normal(const Element& e) { return normal_of(unit((e.kind == ElementKind::line ? e.p2 : e.p1) - e.p0)); }
+Vec2 end_normal(const Element& e) { return normal_of(unit(e.p2 - (e.kind == ElementKind::line ? e.p0 : e.p1))); }
+
+// Where two lines meet that are both moved along their normals, from where they met.
+Vec2 mitre(Vec2 a, Vec2 b) { return (a + b) * (1.0 / std::max(0.2, 1.0 + dot(a, b))); }
+
+// A closed path beside itself.
+void move_aside(Path& path, double by) {
+    const std::vector<Element> old = path.elements;
+    for (std::size_t i = 0; i < old.size(); ++i) {
+        const Element &before = old[(i + old.size() - 1) % old.size()], &e = old[i], &after = old[(i + 1) % old.size()];
+        path.elements[i].p0 = e.p0 + mitre(end_normal(before), start_normal(e)) * by;
+        path.elements[i].p1 = e.p1 + mitre(start_normal(e), end_normal(e)) * by;
+        path.elements[i].p2 = e.p2 + mitre(end_normal(e), start_normal(after)) * by;
+    }
+}
+
+// A bare step stands in the middle of its wall. Rims that all moved to one side, and their profile to the other, show the
+// map no less, but the rim is not where it is looked for.
+bool centre_rims(Pattern& pattern, std::size_t index) {
+    std::vector<ProfilePoint>& points = pattern.profiles[index].points;
+    const double off = 0.5 * (points.front().b + points.back().b);
+    if (points.size() != 2 || points[0].h == points[1].h || std::abs(off) < kSymmetryTexels || std::abs(off) > kCentreTexels)
+        return false;
+    for (const Path& path : pattern.paths)
+        if (path.profile == index && !path.closed) return false;
+    for (Path& path : pattern.paths)
+        if (path.profile == index) move_aside(path, off);
+    for (ProfilePoint& point : points) point.b -= off;
+    return true;
+}
+
 }  // namespace
 
 bool make_symmetric(Pattern& pattern) {
@@ -117,9 +160,10 @@ bool make_symmetric(Pattern& pattern) {
 
 bool simplify_profiles(Pattern& pattern) {
     bool changed = false;
-    for (Profile& profile : pattern.profiles) {
-        changed |= simplify(profile);
-        changed |= symmetrize(profile);
+    for (std::size_t i = 0; i < pattern.profiles.size(); ++i) {
+        changed |= simplify(pattern.profiles[i]);
+        changed |= centre_rims(pattern, i);
+        changed |= symmetrize(pattern.profiles[i]);
     }
     return changed;
 }

@@ -33,18 +33,16 @@ double path_length(const WorkPath& path) {
     return sum;
 }
 
-// Moving an end must not turn its element around: elements at ends are at least a few snap distances long.
+// Moving an end must not turn its element around: elements at ends are at least a few snap distances long. What is shorter
+// as a whole is a dot, or no step.
 void lengthen_end_elements(Work& work) {
-    std::vector<WorkPath> kept;
+    std::erase_if(work.paths, [&](WorkPath& path) {
+        path.dot = !path.closed && work.snap > 0.0 && path_length(path) <= 2.0 * work.snap;
+        if (path.dot && path.step) work.stats.dropped_elements += static_cast<int>(path.elements.size());
+        return path.dot && path.step;
+    });
     for (WorkPath& path : work.paths) {
-        if (path.closed || work.snap == 0.0) {
-            kept.push_back(std::move(path));
-            continue;
-        }
-        if (path_length(path) <= 2.0 * work.snap) {
-            work.stats.dropped_elements += static_cast<int>(path.elements.size());
-            continue;
-        }
+        if (path.closed || path.dot || work.snap == 0.0) continue;
         auto& elements = path.elements;
         while (elements.size() > 1 && curve::arc_length(elements.front()) < 2.0 * work.snap) {
             elements[1].p0 = elements[0].p0;
@@ -59,9 +57,7 @@ void lengthen_end_elements(Work& work) {
             elements.pop_back();
             ++work.stats.dropped_elements;
         }
-        kept.push_back(std::move(path));
     }
-    work.paths = std::move(kept);
 }
 
 // Clamped maps: an end on the border is moved exactly onto it and runs along it; one beyond it needs no
@@ -70,6 +66,7 @@ void attach_to_border(Work& work, const std::vector<EndKey>& ends) {
     if (work.repeats()) return;
     const Vec2 size = work.pattern.size;
     for (const EndKey& key : ends) {
+        if (work.paths[key.path].dot) continue;
         PathEnd& end = end_of(work, key);
         Vec2 p = position_of(work, key);
         const double to_x = std::min(std::abs(p.x), std::abs(p.x - size.x)),
@@ -108,6 +105,7 @@ std::vector<std::vector<EndKey>> cluster_ends(Work& work, const std::vector<EndK
         const Vec2 p = points[i].a;
         index.visit_box({p - Vec2{reach, reach}, p + Vec2{reach, reach}}, [&](std::uint32_t k, Shift shift) {
             if (length(points[k].a + shift * work.pattern.size - p) > reach) return;
+            if (work.paths[ends[i].path].dot || work.paths[ends[k].path].dot) return;
             const std::size_t a = find(i), b = find(k);
             leader[std::max(a, b)] = std::min(a, b);
         });
@@ -185,7 +183,7 @@ Foot foot_of_cluster(const Work& work, const ChordIndex& index, const std::vecto
         const WorkPath& path = work.paths[chord.path];
         double along = 0.0;
         const Vec2 by = shift * work.pattern.size;
-        if ((has_step && !path.step) || segment_distance(chord.a + by, chord.b + by, p, along) > look) return;
+        if (path.dot || (has_step && !path.step) || segment_distance(chord.a + by, chord.b + by, p, along) > look) return;
         const double s = curve::nearest(path.elements[chord.element], p - by);
         Foot foot;
         settle_foot(work, path, chord.element, s, by, foot);
@@ -204,6 +202,7 @@ Foot foot_of_cluster(const Work& work, const ChordIndex& index, const std::vecto
 void attach_to_paths(Work& work, const std::vector<std::vector<EndKey>>& clusters, bool record) {
     const ChordIndex index(flatten(work, false), work.pattern.size, work.repeats());
     for (const auto& cluster : clusters) {
+        if (work.paths[cluster.front().path].dot) continue;
         const Foot foot = foot_of_cluster(work, index, cluster);
         if (!foot.found) continue;
         for (const EndKey& key : cluster) {

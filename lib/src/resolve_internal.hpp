@@ -39,6 +39,7 @@ struct WorkPath {
     std::uint32_t source = 0;  // index into Pattern::paths
     std::uint32_t profile = 0, material = 0;
     bool closed = false, step = false;
+    bool dot = false;  // open, and so short that its ends are one place: they meet nothing, and nothing ends on it
     double level = 0.0, right_level = 0.0;
     double reach = 0.0;  // greatest |b| of the profile, metres
     JoinKind join = JoinKind::mitre;

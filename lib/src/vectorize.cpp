@@ -101,8 +101,11 @@ void find_features(const Image& source, Traced& traced) {
         tie_lines(ridges, grooves, restored_response(map, erased_ridges, wide, ChainKind::ridge, radius, noise), wide);
     traced.lines = std::move(grooves);
     for (Chain& chain : ridges) traced.lines.push_back(std::move(chain));
+    std::vector<Chain> spots;
     for (const ChainKind kind : {ChainKind::groove, ChainKind::ridge})
-        for (Chain& spot : trace_spots(map, wide, kind, radius, noise, energy)) traced.lines.push_back(std::move(spot));
+        for (Chain& spot : trace_spots(map, wide, kind, radius, noise, energy)) spots.push_back(std::move(spot));
+    drop_crumbs(spots, traced.lines, wide);
+    for (Chain& spot : spots) traced.lines.push_back(std::move(spot));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
     const Image flattened = margin > 0 ? crop_margin(map, margin, lattice) : std::move(map);
     map = {};
@@ -137,19 +140,19 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
     result.tolerance = options.tolerance > 0.0 ? options.tolerance : 0.3;
     // Polylines are fast and tell how many elements to expect; the curves, which need fewer, are fitted once at the end.
     const std::size_t most = budget * 5 / 4;
-    std::size_t lines = count_lines(traced.lines, result.tolerance), steps = count_lines(traced.steps, result.tolerance);
+    std::size_t lines = foretell_elements(traced.lines, result.tolerance), steps = foretell_elements(traced.steps, result.tolerance);
     std::vector<Chain> fewer_steps;
     result.shaded = options.shading && std::any_of(regions.borders.begin(), regions.borders.end(),
                                                    [](const auto& border) { return border.second.is_ramp(); });
     if (!options.shading) {
         merge_regions({result.noise, share * energy, false}, regions);
         fewer_steps = trace_steps(map, traced.changed, lattice, regions);
-        steps = count_lines(fewer_steps, result.tolerance);
+        steps = foretell_elements(fewer_steps, result.tolerance);
     }
     while (options.tolerance == 0.0 && lines + steps > most && result.tolerance * 1.4 <= loosest) {
         result.tolerance *= 1.4;
-        lines = count_lines(traced.lines, result.tolerance);
-        steps = count_lines(options.shading ? traced.steps : fewer_steps, result.tolerance);
+        lines = foretell_elements(traced.lines, result.tolerance);
+        steps = foretell_elements(options.shading ? traced.steps : fewer_steps, result.tolerance);
     }
     for (int round = 0; round < 8 && steps > most * 3 / 4; ++round) {
         share *= 2.0;
@@ -157,7 +160,7 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
         merge_regions({result.noise, share * energy, options.shading}, regions);
         if (regions.level.size() == before) continue;
         fewer_steps = trace_steps(map, traced.changed, lattice, regions);
-        steps = count_lines(fewer_steps, result.tolerance);
+        steps = foretell_elements(fewer_steps, result.tolerance);
     }
     const bool merged = !options.shading || regions.level.size() < traced.regions.level.size();
     return join(fit_chains(traced.lines, map, lattice, result.tolerance, threads),
@@ -206,7 +209,8 @@ Path make_path(const FittedChain& fitted, const Units& units, const Regions& reg
     Path path;
     path.closed = fitted.chain.closed;
     path.profile = fitted.profile;
-    if (fitted.chain.spot == Spot::round) path.start_cap = path.end_cap = CapKind::round;
+    if (fitted.round_start) path.start_cap = CapKind::round;
+    if (fitted.round_end) path.end_cap = CapKind::round;
     for (Element e : fitted.elements) {
         e.p0 = units.point(e.p0);
         e.p1 = units.point(e.p1);
@@ -349,6 +353,7 @@ Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, 
     if (!proceed(0.6)) return stopped();
     const ProfileSet set = measure_profiles(fitted, map.image, lattice, regions, profile_options(traced, options));
     drop_useless(fitted, traced.energy, budget);
+    choose_caps(fitted, set, map.image, lattice, regions);
     if (!proceed(0.8)) return stopped();
     const Wrap wrap = lattice.wrap ? Wrap::repeat : Wrap::clamp;
     result.pattern = make_pattern(fitted, set, regions, lattice, options, wrap);

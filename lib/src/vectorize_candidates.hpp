@@ -13,8 +13,9 @@ namespace burin::vectorizing {
 // Calls visit(point, normal) about once a texel along the chain.
 template <typename Visit>
 void for_each_place(const Chain& chain, const Visit& visit) {
-    for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
-        const Vec2 a = chain.points[i], b = chain.points[i + 1];
+    for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < chain.points.size(); ++i) {
+        const Vec2 a = chain.points[i];
+        const Vec2 b = i + 1 < chain.points.size() ? chain.points[i + 1] : chain.points.front() + chain.winding;
         if (length(b - a) == 0.0) continue;
         const int pieces = std::max(1, static_cast<int>(std::ceil(length(b - a))));
         for (int piece = 0; piece <= pieces; ++piece)

@@ -130,6 +130,29 @@ std::size_t texels_of(const std::vector<Element>& elements) {
     return sum;
 }
 
+// How many elements a polyline comes to once its bends are curves and its corners sharp: of lines that turn on and on to one
+// side, a quadratic takes the place of two and a half; one short line between two long ones is a corner.
+std::size_t count_as_curves(const std::vector<Element>& lines) {
+    constexpr double kCorner = 0.9, kShort = 2.5, kLong = 4.0;  // radians; texels
+    const auto way = [&](std::size_t i) { return lines[i].p2 - lines[i].p0; };
+    std::size_t sum = 0, bent = 0;
+    double last_turn = 0.0;
+    const auto finish = [&] { sum += bent < 3 ? bent : (2 * bent + 4) / 5, bent = 0; };
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const Vec2 in = way(i > 0 ? i - 1 : lines.size() - 1), out = way(i), after = way((i + 1) % lines.size());
+        if (length(out) < kShort && length(in) > kLong && length(after) > kLong) {
+            finish();
+            continue;
+        }
+        const double turn = std::atan2(cross(in, out), dot(in, out));
+        if (std::fabs(turn) > kCorner || turn * last_turn < 0.0) finish();
+        last_turn = turn;
+        ++bent;
+    }
+    finish();
+    return sum;
+}
+
 Result<FitResult> fit_curves(const Chain& chain, const Image& map, const Lattice& lattice, double tolerance) {
     FitOptions options = fit_options(chain, tolerance);
     Result<FitResult> fit = fit_curve(chain.points, options);
@@ -189,9 +212,9 @@ void untangle_steps(std::vector<FittedChain>& chains, const Lattice& lattice, do
     }
 }
 
-std::size_t count_lines(const std::vector<Chain>& chains, double tolerance) {
+std::size_t foretell_elements(const std::vector<Chain>& chains, double tolerance) {
     std::size_t sum = 0;
-    for (const Chain& chain : chains) sum += fit_polyline(chain, tolerance).size();
+    for (const Chain& chain : chains) sum += count_as_curves(fit_polyline(chain, tolerance));
     return sum;
 }
 

@@ -14,7 +14,7 @@ std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, const Imag
 // Contours of one map never cross; where their fits do, they are fitted again by lines ever closer to the points.
 void untangle_steps(std::vector<FittedChain>& chains, const Lattice& lattice, double tolerance);
 
-// How many lines would follow the chains within the tolerance: a fast guess of the number of elements.
-std::size_t count_lines(const std::vector<Chain>& chains, double tolerance);
+// How many elements would follow the chains within the tolerance: a fast guess.
+std::size_t foretell_elements(const std::vector<Chain>& chains, double tolerance);
 
 }  // namespace burin::vectorizing

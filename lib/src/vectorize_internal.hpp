@@ -188,6 +188,9 @@ std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const
 std::vector<Chain> trace_spots(Image& map, const Lattice& lattice, ChainKind kind, double radius, double noise,
                                double energy);
 
+// Specks beside a line are what was left of it, at its corners and ends.
+void drop_crumbs(std::vector<Chain>& spots, const std::vector<Chain>& lines, const Lattice& lattice);
+
 // Joins and ties the ends of all lines of one kind by the response of the map that has them in it: the two below.
 // `others`: the lines of the other kind, which may hide where a line goes on.
 void tie_lines(std::vector<Chain>& chains, const std::vector<Chain>& others, const Image& response, const Lattice& lattice);

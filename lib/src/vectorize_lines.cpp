@@ -43,10 +43,11 @@ Parts find_shapes(std::vector<std::uint8_t>& mask, const Image& response, const 
 float sign_of(ChainKind kind) { return kind == ChainKind::groove ? 1.0f : -1.0f; }
 
 // A letter of broad strokes is lines as a whole or an area as a whole: where the bands of its lines are not what the mask
-// shows, because strokes are missing or swell and taper, all its broad lines go.
+// shows, because strokes are missing, lie beside it, or swell and taper, all its broad lines go; and where most of them are
+// so wide that the square touches the feet of their walls and takes only a part of them.
 void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::uint8_t>& mask, const Parts& parts,
-                         const Lattice& lattice) {
-    constexpr double kBroadStroke = 2.5, kMostMismatch = 0.1;
+                         const Lattice& lattice, double radius) {
+    constexpr double kBroadStroke = 2.5, kMostMismatch = 0.1, kMostOutside = 0.04, kTooWide = 0.82;
     // 1: within a line's band, a texel of doubt included; 2: well within it.
     std::vector<std::uint8_t> band(mask.size(), 0);
     const auto part_at = [&](int texel) {
@@ -64,33 +65,45 @@ void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::uint
                 band[texel] = std::max<std::uint8_t>(band[texel], distance < half_width - 1.0 ? 2 : 1);
             });
         });
-    std::map<std::int32_t, std::pair<double, double>> area;  // of the mask; of what differs
+    struct Area {
+        double whole = 0.0, different = 0.0, outside = 0.0;  // of the mask; of what differs; of lines where it has nothing
+    };
+    std::map<std::int32_t, Area> area;
     for_each_run(parts, [&](int y, const Run& run) {
         const auto row = band.begin() + static_cast<std::ptrdiff_t>(y) * lattice.width;
-        auto& [whole, different] = area[static_cast<std::int32_t>(run.part)];
-        whole += run.end - run.begin;
-        different += static_cast<double>(std::count(row + run.begin, row + run.end, 0));
+        Area& part = area[static_cast<std::int32_t>(run.part)];
+        part.whole += run.end - run.begin;
+        part.different += static_cast<double>(std::count(row + run.begin, row + run.end, 0));
     });
     for (std::size_t c = 0; c < chains.size(); ++c)
         for_each_place(chains[c], [&](Vec2 p, Vec2) {
             for_each_texel_near(p, lattice, static_cast<int>(std::ceil(chains[c].half_width)), [&](int texel, Vec2) {
                 if (band[texel] != 2 || mask[texel] || part_of[c] < 0) return;
                 band[texel] = 0;
-                area[part_of[c]].second += 1.0;
+                area[part_of[c]].different += 1.0;
+                area[part_of[c]].outside += 1.0;
             });
         });
-    std::map<std::int32_t, std::pair<double, double>> drawn;  // areas of all lines, of the broad ones
+    struct Drawn {
+        double all = 0.0, broad = 0.0, too_wide = 0.0;  // areas of lines
+    };
+    std::map<std::int32_t, Drawn> drawn;
     for (std::size_t c = 0; c < chains.size(); ++c) {
         const double size = chain_length(chains[c]) * chains[c].half_width;
-        drawn[part_of[c]].first += size;
-        if (chains[c].half_width > kBroadStroke) drawn[part_of[c]].second += size;
+        Drawn& part = drawn[part_of[c]];
+        part.all += size;
+        if (chains[c].half_width > kBroadStroke) part.broad += size;
+        if (chains[c].half_width > kTooWide * radius) part.too_wide += size;
     }
     std::size_t c = 0;
     std::erase_if(chains, [&](const Chain& chain) {
         const std::int32_t label = part_of[c++];
-        const bool is_area = area[label].second > kMostMismatch * area[label].first;
+        const Drawn& part = drawn[label];
+        const Area& shown = area[label];
+        const bool is_area = shown.different > kMostMismatch * shown.whole || shown.outside > kMostOutside * shown.whole ||
+                             part.too_wide > 0.5 * part.all;
         // The hairlines of a letter go with its strokes; a net of thin lines does not go with the blobs on it.
-        const bool is_broad = drawn[label].second > 0.5 * drawn[label].first;
+        const bool is_broad = part.broad > 0.5 * part.all;
         return is_area && (is_broad || chain.half_width > kBroadStroke);
     });
 }
@@ -262,7 +275,7 @@ std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const
     const std::vector<Chain> all = join_strands(skeleton, whole, lattice, kind);
     restored = {};
     std::vector<Chain> chains = keep_lines(all, mask, parts, map, lattice, noise, 2e-5 * energy, scale);
-    if (scale.radius == scale.widest) drop_partial_shapes(chains, mask, parts, lattice);
+    if (scale.radius == scale.widest) drop_partial_shapes(chains, mask, parts, lattice, scale.radius);
     if (!chains.empty()) erase_lines(map, response, lattice, chains, kind, scale, least, erased);
     return chains;
 }

@@ -92,6 +92,25 @@ void level_tails(Section& section) {
     }
 }
 
+void mirror(Section& section) {
+    std::reverse(section.height.begin(), section.height.end());
+    std::reverse(section.weight.begin(), section.weight.end());
+}
+
+void add_section(Section& total, const Section& part) {
+    for (std::size_t k = 0; k < total.height.size(); ++k) {
+        const double w = total.weight[k] + part.weight[k];
+        if (w > 0.0) total.height[k] = (total.height[k] * total.weight[k] + part.height[k] * part.weight[k]) / w;
+        total.weight[k] = w;
+    }
+}
+
+void make_symmetric(Section& section) {
+    Section mirrored = section;
+    mirror(mirrored);
+    add_section(section, mirrored);
+}
+
 // Sections of all chains: heights relative to the ground of the side, mean over the texels of each offset.
 std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, const Image& map,
                                       const std::vector<Owner>& owners, const Regions& regions, int half) {
@@ -134,13 +153,9 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
             sections[c].weight[k] = picked[c * bins + k].count;
         }
         if (chains[c].chain.kind != ChainKind::step) level_tails(sections[c]);
+        if (chains[c].chain.spot != Spot::no) make_symmetric(sections[c]);
     }
     return sections;
-}
-
-void mirror(Section& section) {
-    std::reverse(section.height.begin(), section.height.end());
-    std::reverse(section.weight.begin(), section.weight.end());
 }
 
 // Weighted root mean square difference over the offsets that both have.
@@ -160,14 +175,6 @@ double amplitude(const Section& section) {
     for (std::size_t k = 0; k < section.height.size(); ++k)
         if (section.weight[k] >= 4.0) most = std::max(most, std::fabs(section.height[k]));
     return most;
-}
-
-void add_section(Section& total, const Section& part) {
-    for (std::size_t k = 0; k < total.height.size(); ++k) {
-        const double w = total.weight[k] + part.weight[k];
-        if (w > 0.0) total.height[k] = (total.height[k] * total.weight[k] + part.height[k] * part.weight[k]) / w;
-        total.weight[k] = w;
-    }
 }
 
 void reverse_chain(FittedChain& fitted) {
@@ -205,7 +212,9 @@ std::vector<Cluster> cluster_sections(std::vector<FittedChain>& chains, std::vec
         const Chain& chain = chains[c].chain;
         const bool step = chain.kind == ChainKind::step;
         const double rise = step ? regions.level[chain.right_region] - regions.level[chain.left_region] : 0.0;
-        const double allowed = closeness * std::max(amplitude(sections[c]), std::fabs(rise)) + noise;
+        // A spot is its section and a place, so that a section that is a little too wide shows all round it.
+        const double close = chain.spot == Spot::no ? closeness : 0.2 * closeness;
+        const double allowed = close * std::max(amplitude(sections[c]), std::fabs(rise)) + noise;
         double best = allowed;
         std::size_t chosen = clusters.size();
         bool flip = false;
@@ -261,10 +270,26 @@ std::size_t count_step_kinds(const std::vector<FittedChain>& chains, const Regio
     return kinds.size();
 }
 
-double value_at(const Profile& profile, double b, bool& inside) {
+void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map,
+                   const std::vector<Owner>& owners, const Regions& regions) {
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+        if (owners[i].chain == kNoChain) continue;
+        FittedChain& fitted = chains[owners[i].chain];
+        if (fitted.chain.kind == ChainKind::step) continue;
+        const Profile& profile = set.profiles[fitted.profile];
+        const bool inside = owners[i].offset >= profile.points.front().b && owners[i].offset <= profile.points.back().b;
+        if (!inside || owners[i].beyond) continue;
+        const double h = height_at(profile, owners[i].offset);
+        const double d = map.texels[i] - regions.level[regions.at(i)];
+        fitted.gain += d * d - (d - h) * (d - h);
+    }
+}
+
+}  // namespace
+
+double height_at(const Profile& profile, double b) {
     const auto& p = profile.points;
-    inside = b >= p.front().b && b <= p.back().b;
-    if (!inside) return b < 0.0 ? p.front().h : p.back().h;
+    if (b < p.front().b) return p.front().h;
     for (std::size_t k = 1; k < p.size(); ++k)
         if (b <= p[k].b) {
             const double w = p[k].b - p[k - 1].b;
@@ -272,22 +297,6 @@ double value_at(const Profile& profile, double b, bool& inside) {
         }
     return p.back().h;
 }
-
-void measure_gains(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map,
-                   const std::vector<Owner>& owners, const Regions& regions) {
-    for (std::size_t i = 0; i < owners.size(); ++i) {
-        if (owners[i].chain == kNoChain) continue;
-        FittedChain& fitted = chains[owners[i].chain];
-        if (fitted.chain.kind == ChainKind::step) continue;
-        bool inside = false;
-        const double h = value_at(set.profiles[fitted.profile], owners[i].offset, inside);
-        if (!inside || owners[i].beyond) continue;
-        const double d = map.texels[i] - regions.level[regions.at(i)];
-        fitted.gain += d * d - (d - h) * (d - h);
-    }
-}
-
-}  // namespace
 
 ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, const Lattice& lattice,
                             Regions& regions, const ProfileOptions& options) {

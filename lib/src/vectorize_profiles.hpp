@@ -13,6 +13,7 @@ struct FittedChain {
     std::uint32_t profile = 0;   // index into ProfileSet::profiles
     double gain = 0.0;           // squared height error that the chain takes away
     double length = 0.0;
+    bool round_start = false, round_end = false;  // see choose_caps
 };
 
 inline constexpr double kSectionStep = 0.5;
@@ -32,6 +33,13 @@ struct ProfileOptions {
 // chains of equal section (reversing lines whose section is mirrored), and fits polylines to them.
 ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, const Lattice& lattice,
                             Regions& regions, const ProfileOptions& options);
+
+// Height at an offset; beyond the profile's ends that of the end.
+double height_at(const Profile& profile, double b);
+
+// Round ends: of round spots, and of lines whose open ends the map shows to be so.
+void choose_caps(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map, const Lattice& lattice,
+                 const Regions& regions);
 
 // Per chain: 1 when it is a step whose elements cross those of a step, itself included.
 std::vector<std::uint8_t> find_tangled_steps(const std::vector<FittedChain>& chains, const Lattice& lattice);

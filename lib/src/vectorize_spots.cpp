@@ -6,19 +6,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
+#include <unordered_map>
+#include <utility>
 
 namespace burin::vectorizing {
 namespace {
 
 constexpr double kLeastShare = 0.8;    // of a part's squares, that its distance from the middle tells
 constexpr double kLeastEnergy = 5e-5;   // of the map's, for one spot
-constexpr std::uint32_t kMostFlat = 12;  // flat texels at its bottom: a plateau has more
+constexpr std::uint32_t kMostFlat = 12;  // flat texels at its bottom: what has more is a plateau, unless it is round
 constexpr double kMargin = 2.0;         // texels around a part that belong to its spot
 
 struct Part {
     std::vector<Vec2> texels;  // centres, unwrapped
     std::vector<int> index;
+    bool flat = false;         // at its bottom, more than kMostFlat texels of it
 };
 
 // The smallest box that holds the texels' centres.
@@ -50,9 +54,9 @@ Part collect_part(int first, const std::vector<std::uint8_t>& mask, const Lattic
     return part;
 }
 
-// The parts of a mask that have a spot's size, and no flat bottom of some size.
+// The parts of a mask that have a spot's size, next to squares of 2 radius + 1 texels.
 std::vector<Part> collect_parts(const std::vector<std::uint8_t>& mask, const std::vector<std::uint8_t>& flat,
-                                const Lattice& lattice, std::uint32_t most_texels) {
+                                const Lattice& lattice, std::uint32_t radius) {
     constexpr std::uint32_t kLeastTexels = 3;
     struct Count {
         std::uint32_t texels = 0, flat = 0;
@@ -69,9 +73,13 @@ std::vector<Part> collect_parts(const std::vector<std::uint8_t>& mask, const std
     });
     std::vector<Part> parts;
     std::vector<std::uint8_t> seen(mask.size(), 0);
-    for (const Count& count : counts)
-        if (count.flat <= kMostFlat && count.texels >= kLeastTexels && count.texels <= most_texels)
-            parts.push_back(collect_part(count.first, mask, lattice, seen));
+    for (const Count& count : counts) {
+        const bool is_flat = count.flat > kMostFlat;
+        const std::uint32_t most_texels = (is_flat ? 10u : 4u) * radius * radius;
+        if (count.texels < kLeastTexels || count.texels > most_texels) continue;
+        parts.push_back(collect_part(count.first, mask, lattice, seen));
+        parts.back().flat = is_flat;
+    }
     return parts;
 }
 
@@ -150,21 +158,32 @@ Field look_around(const Part& part, const Image& response, const Lattice& lattic
     return field;
 }
 
-// Share of the field's squares that a section over the shape's offset explains.
-double share_of(const Shape& shape, const Field& field) {
-    constexpr double kBin = 0.75;  // texels
-    std::vector<std::array<double, 3>> bins;  // count, sum, squares
-    double whole = 0.0, left = 0.0;
-    for (std::size_t i = 0; i < field.places.size(); ++i) {
-        const std::size_t bin = static_cast<std::size_t>(shape.offset(field.places[i]) / kBin);
-        if (bin >= bins.size()) bins.resize(bin + 1, {0.0, 0.0, 0.0});
-        const double h = field.heights[i];
-        bins[bin][0] += 1.0, bins[bin][1] += h, bins[bin][2] += h * h;
-        whole += h * h;
+// Squares that a section over the shape's offset leaves of the field: means of rings, and lines between them.
+double left_by(const Shape& shape, const Field& field) {
+    constexpr double kRing = 0.5;  // texels
+    struct Ring {
+        double count = 0.0, offset = 0.0, height = 0.0;
+    };
+    std::vector<Ring> rings;
+    std::vector<double> offsets(field.places.size());
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        offsets[i] = shape.offset(field.places[i]);
+        const std::size_t k = static_cast<std::size_t>(offsets[i] / kRing);
+        if (k >= rings.size()) rings.resize(k + 1);
+        rings[k].count += 1.0, rings[k].offset += offsets[i], rings[k].height += field.heights[i];
     }
-    for (const auto& [count, sum, squares] : bins)
-        if (count > 0.0) left += squares - sum * sum / count;
-    return whole > 0.0 ? 1.0 - left / whole : 0.0;
+    for (Ring& ring : rings) ring.offset /= ring.count, ring.height /= ring.count;
+    double left = 0.0;
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const std::size_t k = static_cast<std::size_t>(offsets[i] / kRing);
+        const bool outwards = offsets[i] > rings[k].offset;
+        const bool inside = outwards ? k + 1 < rings.size() && rings[k + 1].count > 0.0 : k > 0 && rings[k - 1].count > 0.0;
+        const Ring& next = inside ? rings[outwards ? k + 1 : k - 1] : rings[k];
+        const double share = inside ? (offsets[i] - rings[k].offset) / (next.offset - rings[k].offset) : 0.0;
+        const double h = field.heights[i] - rings[k].height - share * (next.height - rings[k].height);
+        left += h * h;
+    }
+    return left;
 }
 
 // Weighted middle and axes of the field.
@@ -188,6 +207,75 @@ Shape fit_axes(const Field& field, double& narrow) {
     return shape;
 }
 
+struct Fit {
+    Shape shape;
+    double left = 1e300;  // squares
+};
+
+// The shape of some kinds that leaves least, of those that the axes suggest.
+Fit choose_shape(const Shape& found, const Field& field, std::initializer_list<Spot> kinds) {
+    Fit best;
+    for (const Spot kind : kinds)
+        for (const Vec2 along : {found.along, Vec2{1.0, 0.0}, Vec2{0.0, 1.0}})
+            for (const double length : {found.half_length, 0.0}) {
+                const Shape shape{found.centre, along, length, kind};
+                const double left = left_by(shape, field);
+                if (left < 0.97 * best.left) best = {shape, left};
+            }
+    return best;
+}
+
+// Moves, turns and stretches the shape for as long as it then leaves less.
+void settle(Fit& fit, const Field& field) {
+    constexpr double kFirst = 0.4, kLast = 0.04;  // texels
+    const auto moved = [](Shape s, int way, double by) {
+        if (way < 2) s.centre = s.centre + (way == 0 ? s.along : normal_of(s.along)) * by;
+        if (way == 2) s.half_length = std::max(0.0, s.half_length + by);
+        if (way == 3) s.along = unit(s.along + normal_of(s.along) * (by / std::max(1.0, s.half_length)));
+        return s;
+    };
+    for (double step = kFirst; step > kLast;) {
+        const double before = fit.left;
+        for (int way = 0; way < (fit.shape.half_length > 0.0 ? 4 : 2); ++way)
+            for (const double by : {-step, step}) {
+                const Shape other = moved(fit.shape, way, by);
+                if (const double left = left_by(other, field); left < fit.left) fit = {other, left};
+            }
+        if (fit.left == before) step *= 0.5;
+    }
+}
+
+// Mean square of what is not level at the flat bottom of a shape: the grain, or what JPEG left there.
+double ripple_of(const Shape& shape, const Field& field, double half_width) {
+    constexpr double kWall = 2.0;  // texels
+    double count = 0.0, sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < field.places.size(); ++i) {
+        if (shape.offset(field.places[i]) > half_width - kWall) continue;
+        const double h = field.heights[i];
+        count += 1.0, sum += h, squares += h * h;
+    }
+    return count > 0.0 ? std::max(0.0, squares - sum * sum / count) / count : 0.0;
+}
+
+// What is flat at its bottom is a plateau, whose outline takes elements all round it, unless it is a disc or has two round
+// ends beyond doubt: then a spot says all of it.
+std::optional<Fit> fit_round(const Shape& found, const Field& field, double half_width, double highest) {
+    // Squared texels that the outline may be off, its mean: at first, of a clean map, and more where it is not clean.
+    constexpr double kMostAtFirst = 0.5, kMost = 0.006, kMostMore = 0.02;
+    const double rim = 6.28318530717959 * half_width + 4.0 * found.half_length, rim_squares = highest * highest * rim;
+    Fit fit = choose_shape(found, field, {Spot::round});
+    if (fit.left > kMostAtFirst * rim_squares) return std::nullopt;
+    settle(fit, field);
+    const double ripples = ripple_of(fit.shape, field, half_width) * static_cast<double>(field.places.size());
+    const double most = kMost * rim_squares + std::min(4.0 * ripples, kMostMore * rim_squares);
+    return fit.left < most ? std::optional(fit) : std::nullopt;
+}
+
+std::optional<Fit> fit_any(const Shape& found, const Field& field, double energy) {
+    const Fit fit = choose_shape(found, field, {Spot::round, Spot::square});
+    return fit.left < (1.0 - kLeastShare) * energy ? std::optional(fit) : std::nullopt;
+}
+
 std::optional<Chain> make_spot(const Part& part, const Image& response, const Lattice& lattice, ChainKind kind,
                                double most_side, double least_energy) {
     const Field field = look_around(part, response, lattice);
@@ -197,23 +285,15 @@ std::optional<Chain> make_spot(const Part& part, const Image& response, const La
     double narrow = 0.0;
     const Shape found = fit_axes(field, narrow);
     if (narrow > most_side || found.half_length > 1.5 * most_side) return std::nullopt;
-    Shape best = found;
-    double best_share = 0.0;
-    for (const Spot spot : {Spot::round, Spot::square})
-        for (const Vec2 along : {found.along, Vec2{1.0, 0.0}, Vec2{0.0, 1.0}})
-            for (const double length : {found.half_length, 0.0}) {
-                const Shape shape{found.centre, along, length, spot};
-                const double share = share_of(shape, field);
-                if (share > best_share + 0.005) best = shape, best_share = share;
-            }
-    if (best_share < kLeastShare) return std::nullopt;
+    const std::optional<Fit> fit = part.flat ? fit_round(found, field, 0.5 * narrow, highest) : fit_any(found, field, energy);
+    if (!fit) return std::nullopt;
     Chain chain;
     chain.kind = kind;
-    chain.spot = best.kind;
+    chain.spot = fit->shape.kind;
     chain.half_width = 0.5 * narrow;
     chain.contrast = highest;
-    const Vec2 reach = best.along * std::max(best.half_length, 0.05);
-    chain.points = {best.centre - reach, best.centre + reach};
+    const Vec2 reach = fit->shape.along * std::max(fit->shape.half_length, 0.05);
+    chain.points = {fit->shape.centre - reach, fit->shape.centre + reach};
     return chain;
 }
 
@@ -227,14 +307,49 @@ std::vector<Chain> trace_spots(Image& map, const Lattice& lattice, ChainKind kin
     const std::vector<std::uint8_t> mask = strong_mask(response, lattice, std::max(4, r / 3), least);
     const float sign = kind == ChainKind::groove ? 1.0f : -1.0f;
     std::vector<Chain> spots;
-    const std::uint32_t most_texels = 4u * static_cast<std::uint32_t>(r * r);
-    for (const Part& part : collect_parts(mask, find_flat(map, lattice, noise), lattice, most_texels)) {
+    for (const Part& part : collect_parts(mask, find_flat(map, lattice, noise), lattice, static_cast<std::uint32_t>(r))) {
         std::optional<Chain> spot = make_spot(part, response, lattice, kind, 1.6 * r, kLeastEnergy * energy);
         if (!spot || !on_level_ground(part, map, lattice, spot->contrast)) continue;
         for (const int texel : texels_around(part, lattice)) map.texels[texel] += sign * response.texels[texel];
         spots.push_back(std::move(*spot));
     }
     return spots;
+}
+
+void drop_crumbs(std::vector<Chain>& spots, const std::vector<Chain>& lines, const Lattice& lattice) {
+    constexpr double kCrumb = 1.2, kBeside = 2.5;  // half width; beyond a line's wall, texels
+    const auto is_crumb = [](const Chain& spot) { return spot.half_width < kCrumb; };
+    if (std::none_of(spots.begin(), spots.end(), is_crumb)) return;
+    const auto cell_of = [&](Vec2 p) {
+        return lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
+    };
+    std::unordered_multimap<int, std::pair<Vec2, double>> near;  // by texel: points of lines, and how far they reach
+    double furthest = 0.0;
+    for (const Chain& line : lines) {
+        const double reach = line.half_width + kBeside;
+        furthest = std::max(furthest, reach);
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            const Vec2 a = line.points[i - 1], b = line.points[i];
+            const int pieces = std::max(1, static_cast<int>(std::lround(length(b - a))));
+            for (int piece = 0; piece < pieces; ++piece) {
+                const Vec2 p = lerp(a, b, (piece + 0.5) / pieces);
+                near.emplace(cell_of(p), std::pair{p, reach});
+            }
+        }
+    }
+    std::erase_if(spots, [&](const Chain& spot) {
+        const Vec2 middle = lerp(spot.points.front(), spot.points.back(), 0.5);
+        const int reach = is_crumb(spot) ? static_cast<int>(std::ceil(furthest)) : -1;
+        for (int dy = -reach; dy <= reach; ++dy)
+            for (int dx = -reach; dx <= reach; ++dx) {
+                const auto [first, last] = near.equal_range(cell_of(middle + Vec2{double(dx), double(dy)}));
+                for (auto at = first; at != last; ++at) {
+                    const Vec2 p = at->second.first + lattice.shift_to(at->second.first, middle);
+                    if (length(p - middle) < at->second.second) return true;
+                }
+            }
+        return false;
+    });
 }
 
 }  // namespace burin::vectorizing

@@ -17,6 +17,7 @@ using bench::circle;
 using bench::Pen;
 using bench::polyline;
 using bench::slab;
+using bench::Stroke;
 
 constexpr double kDepth = 0.5;
 
@@ -95,6 +96,71 @@ TEST(VectorizeMaps, BoltsAndSlotsAreOnePathEach) {
     EXPECT_EQ(r.structure.paths.recovered, r.structure.paths.authored);
     EXPECT_EQ(r.contour.lost, 0.0);
     EXPECT_LT(r.contour.rms, 0.05);
+}
+
+// Discs of any size, high and low: the small ones are dots, the large ones outlines, and none is lost.
+TEST(VectorizeMaps, DiscsAreOnePathEach) {
+    Uniform random(seed_of_run());
+    for (const double wall : {0.4, 2.0}) {
+        DrawnMap map(wall, 0.5);
+        const Pen rise = map.pens().step(0.4), pit = map.pens().step(-0.4);
+        for (int i = 0; i < 25; ++i) {
+            const Vec2 c = Vec2{28.0 + 50.0 * (i % 5), 28.0 + 50.0 * (i / 5)} + Vec2{random(-1, 1), random(-1, 1)};
+            map.draw(random(0, 1) < 0.5 ? rise : pit, circle(c, random(1.5, i % 5 == 0 ? 20.0 : 8.0)));
+        }
+        const Recovered r = recovered_from(map.take());
+        report("discs", r);
+        EXPECT_EQ(r.structure.paths.recovered, r.structure.paths.authored);
+        EXPECT_GE(r.structure.paths.matched, r.structure.paths.authored - 1);
+        EXPECT_EQ(r.contour.lost, 0.0);
+        EXPECT_LT(r.contour.rms, 0.04);
+    }
+}
+
+// Milled slots of any direction: straight, both ends round.
+TEST(VectorizeMaps, SlotsEndRound) {
+    Uniform random(seed_of_run());
+    for (const double wall : {0.4, 2.0}) {
+        DrawnMap map(wall, 0.5);
+        const Pen pens[] = {map.pens().step(0.4), map.pens().step(-0.4)};
+        for (int i = 0; i < 16; ++i) {
+            const Vec2 c = Vec2{36.0 + 60.0 * (i % 4), 36.0 + 60.0 * (i / 4)} + Vec2{random(-1, 1), random(-1, 1)};
+            const double radius = random(2.5, 6.0);
+            map.draw(pens[i % 2], slab(c, {radius + random(3.0, 14.0), radius}, radius, random(0, 3)));
+        }
+        const Recovered r = recovered_from(map.take());
+        report("slots", r);
+        EXPECT_EQ(r.structure.paths.recovered, r.structure.paths.authored);
+        EXPECT_EQ(r.contour.lost, 0.0);
+        EXPECT_LT(r.contour.rms, 0.1);
+    }
+}
+
+Stroke letter_h(double height, double width, double stem) {
+    const double bar = 0.5 * (height - stem);
+    return polyline({{0, 0}, {stem, 0}, {stem, bar}, {width - stem, bar}, {width - stem, 0}, {width, 0}, {width, height},
+                     {width - stem, height}, {width - stem, bar + stem}, {stem, bar + stem}, {stem, height}, {0, height}}, true);
+}
+
+// Letters of broad strokes are found as a whole, whether as strokes or as outlines.
+TEST(VectorizeMaps, BroadLettersStayWhole) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.5, 0.3);
+    const Pen rise = map.pens().step(0.4), fall = map.pens().on(map.pens().step(-0.4), 0.4);
+    for (int i = 0; i < 4; ++i) {
+        const double stem = random(7.0, 18.0), angle = random(-0.2, 0.2), height = random(80.0, 100.0);
+        const Vec2 corner = DrawnMap::field(i) - Vec2{40.0, 48.0};
+        if (i % 2 == 0) {
+            map.draw(rise, letter_h(height, 70.0, stem).placed(1.0, angle, corner));
+            continue;
+        }
+        map.draw(rise, slab(DrawnMap::field(i), {36.0, 46.0}, 36.0, angle));
+        map.draw(fall, slab(DrawnMap::field(i), {36.0 - stem, 46.0 - stem}, 36.0 - stem, angle));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("broad letters", r);
+    EXPECT_EQ(r.contour.lost, 0.0);
+    EXPECT_LT(r.contour.rms, 0.1);
 }
 
 TEST(VectorizeMaps, RaggedEdgesStayOneOutline) {

@@ -564,6 +564,21 @@ TEST(ResolveCleaning, DuplicatesAndZeroLengthAreDroppedAndCounted) {
     EXPECT_EQ(resolved.elements.size(), 3u);
 }
 
+// Bolts are that: neither too short to be kept nor drawn to what they lie beside.
+TEST(ResolveCleaning, DotsStayWhereTheyAre) {
+    for (const double distance : {1e-4, 1e-5}) {
+        Pattern pattern = empty_pattern();
+        pattern.paths = {chain({{0.2, 0.5}, {0.8, 0.5}}), chain({{0.4, 0.50003}, {0.4 + distance, 0.50003}}),
+                         chain({{0.7, 0.2}, {0.7 + distance, 0.2}})};
+        const ResolvedPattern resolved = resolve(pattern);
+        ASSERT_EQ(resolved.elements.size(), 3u);
+        EXPECT_EQ(resolved.stats.dropped_elements, 0);
+        EXPECT_EQ(resolved.stats.snapped_ends, 0);
+        EXPECT_EQ(resolved.elements[1].element.p2.x, 0.4 + distance);
+        EXPECT_FALSE(is_clip(resolved.elements[1].start) || is_clip(resolved.elements[2].end));
+    }
+}
+
 TEST(ResolveCleaning, EmptyPatternStaysEmpty) {
     const ResolvedPattern resolved = resolve(empty_pattern());
     EXPECT_TRUE(resolved.elements.empty() && resolved.junctions.empty());

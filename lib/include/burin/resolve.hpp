@@ -107,7 +107,7 @@ struct ResolvedPattern {
 
 struct ResolveOptions {
     // Ends nearer than this to another path's line are taken to lie on it, metres as a fraction of the larger of
-    // size.x and size.y. Range [0, 0.01].
+    // size.x and size.y. Range [0, 0.01]. An open path no longer than twice that is a dot, which meets no other path.
     double snap = 1e-4;
     // Angle below which two consecutive elements are one smooth joint, radians, [0, 0.5].
     double smooth_angle = 0.05;
