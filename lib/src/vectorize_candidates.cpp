@@ -222,12 +222,29 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
     return chain.half_width <= 1.5 && has_one_section(chain, self, around, {4.0 * near, 4.0 * near});
 }
 
-// A chain whose points were mostly dropped as unsteady was bridged over noise.
-bool is_supported(const Chain& chain) {
+// Whether the map is as deep (high) between two points of a chain as it is at them.
+bool goes_on(const Chain& chain, Vec2 a, Vec2 b, const Surroundings& around) {
+    const auto value = [&](Vec2 p) { return static_cast<double>(sample(around.map, around.lattice, p)); };
+    const double least = std::min(value(a), value(b)) - 0.3 * chain.contrast;
+    const double most = std::max(value(a), value(b)) + 0.3 * chain.contrast;
+    const int steps = static_cast<int>(std::ceil(length(b - a)));
+    for (int k = 1; k < steps; ++k) {
+        const double v = value(lerp(a, b, static_cast<double>(k) / steps));
+        if (v < least || v > most) return false;
+    }
+    return true;
+}
+
+// A chain whose points were mostly dropped as unsteady was bridged over noise; where lines cross at a small angle, it goes
+// on although nothing can be measured.
+bool is_supported(const Chain& chain, const Surroundings& around) {
     double bridged = 0.0;
     for (std::size_t i = 1; i < chain.points.size(); ++i) {
         const double gap = length(chain.points[i] - chain.points[i - 1]);
-        if (gap > kBridge) bridged += gap - std::min(gap, 6.0 * chain.half_width + 4.0) + kBridge;
+        const double plain = 6.0 * chain.half_width + 4.0;
+        if (gap <= kBridge) continue;
+        bridged += kBridge;
+        if (gap > plain && !goes_on(chain, chain.points[i - 1], chain.points[i], around)) bridged += gap - plain;
     }
     return chain.points.size() >= 4 && bridged < 0.4 * chain_length(chain);
 }
@@ -286,7 +303,7 @@ std::vector<Chain> keep_lines(const Chain& whole, std::int32_t self, const Surro
         auto [chain, splits] = std::move(stack.back());
         stack.pop_back();
         if (chain_energy(chain) < least_energy) continue;
-        if (is_supported(chain) && is_line(chain, self, around) &&
+        if (is_supported(chain, around) && is_line(chain, self, around) &&
             (scale.radius == scale.widest || stands_alone(chain, self, around, scale.radius))) {
             kept.push_back(std::move(chain));
             continue;
@@ -358,7 +375,7 @@ std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const std::vecto
         kept_of[c] = keep_lines(chains[c], static_cast<std::int32_t>(c), around, least_energy, scale);
         shape[c] = part_of(chains[c], mask, shapes, lattice);
         waits[c] = !is_widest && kept_of[c].empty() && chain_energy(chains[c]) >= least_energy &&
-                   is_supported(chains[c]) && is_line(chains[c], static_cast<std::int32_t>(c), around);
+                   is_supported(chains[c], around) && is_line(chains[c], static_cast<std::int32_t>(c), around);
     });
     wait_with_others(chains, shape, lattice, waits);
     std::vector<Chain> kept;

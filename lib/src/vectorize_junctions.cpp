@@ -234,7 +234,8 @@ void contract_stems(Skeleton& skeleton, const Lattice& lattice) {
 
 // The skeleton of two lines that meet at an acute angle leads on into the tip of their corner; such a strand is no line.
 void drop_tips(Skeleton& skeleton, const Lattice& lattice) {
-    constexpr double kWidestAngle = 1.4;  // radians between the lines
+    // Radians between the lines; at less, the tip may well be one of them that goes on.
+    constexpr double kLeastAngle = 0.35, kWidestAngle = 1.4;
     std::vector<std::vector<std::pair<int, int>>> touching(skeleton.nodes.size());  // strand, end
     for (std::size_t s = 0; s < skeleton.strands.size(); ++s)
         for (int end = 0; end < 2 && !skeleton.strands[s].gone && !skeleton.strands[s].loop; ++end)
@@ -255,7 +256,7 @@ void drop_tips(Skeleton& skeleton, const Lattice& lattice) {
             const double half_width = std::max(a.half_width, b.half_width);
             const double longest = 2.0 * half_width / std::max(0.1, std::sin(0.5 * angle)) + 2.0;
             Vec2 corner;
-            if (angle > kWidestAngle || !intersect(a, b, corner) || static_cast<double>(tip.texels.size()) > longest) continue;
+            if (angle < kLeastAngle || angle > kWidestAngle || !intersect(a, b, corner) || static_cast<double>(tip.texels.size()) > longest) continue;
             const Vec2 free_end = end == 0 ? tip.texels.back() : tip.texels.front();
             const Vec2 way = free_end + lattice.shift_to(free_end, node.position) - node.position;
             if (length(way) > 0.0 && dot(unit(way), unit(a.direction + b.direction)) > 0.8) tip.gone = true;
