@@ -274,7 +274,7 @@ Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, st
 // long and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a
 // clock, so that the bytes do not depend on the machine.
 bool can_afford_refinement(const Pattern& pattern, const Image& map) {
-    constexpr double kMostTexels = 3e5;  // element lengths times profile widths: up to 3 seconds on two cores
+    constexpr double kMostTexels = 1e6;  // element lengths times profile widths: up to 7 seconds on two cores
     const double texels = map.width / pattern.size.x;
     double work = 0.0;
     for (const Path& path : pattern.paths) {
@@ -292,6 +292,13 @@ Unrefined reason_not_to_refine(const Candidate& candidate, const HeightMap& map,
     return can_afford_refinement(candidate.traced.pattern, map.image) ? Unrefined::no : Unrefined::too_much_work;
 }
 
+// Whether curves were fitted more loosely than the map shows, or elements given up, for the sake of the budget: then the
+// refinement has none to add.
+bool is_short_of_bytes(const Candidate& candidate) {
+    constexpr double kUsualTolerance = 0.3;  // texels
+    return candidate.most_elements > 0 || candidate.traced.tolerance > kUsualTolerance;
+}
+
 // Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
 Result<Candidate> refine_candidate(Candidate candidate, const Source& source, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
@@ -302,6 +309,7 @@ Result<Candidate> refine_candidate(Candidate candidate, const Source& source, co
     candidate.stats.unrefined = Unrefined::no_gain;
     RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
+    if (is_short_of_bytes(candidate)) refinement.elements = false;
     Vectorized refined = candidate.traced;
     if (!refine_pattern(refined.pattern, source.detail().image, refinement)) return candidate;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);

@@ -69,7 +69,7 @@ bool borders_match(const Image& map, int threads) {
 // Lines, then the plateaus in what is left of the map without them.
 void find_features(const Image& source, Traced& traced) {
     const Lattice& lattice = traced.lattice;
-    const double noise = traced.noise, energy = traced.energy;
+    const double noise = traced.damage, energy = traced.energy;
     const double radius = std::clamp(0.02 * std::min(lattice.width, lattice.height), 6.0, 24.0);
     // A line along the border of a map that does not tile is half outside: a mirrored margin makes it whole.
     const int margin = lattice.wrap ? 0 : static_cast<int>(radius) + 8;
@@ -145,7 +145,7 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
     result.shaded = options.shading && std::any_of(regions.borders.begin(), regions.borders.end(),
                                                    [](const auto& border) { return border.second.is_ramp(); });
     if (!options.shading) {
-        merge_regions({result.noise, share * energy, false}, regions);
+        merge_regions({traced.damage, share * energy, false}, regions);
         fewer_steps = trace_steps(map, traced.changed, lattice, regions);
         steps = foretell_elements(fewer_steps, result.tolerance);
     }
@@ -157,7 +157,7 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
     for (int round = 0; round < 8 && steps > most * 3 / 4; ++round) {
         share *= 2.0;
         const std::size_t before = regions.level.size();
-        merge_regions({result.noise, share * energy, options.shading}, regions);
+        merge_regions({traced.damage, share * energy, options.shading}, regions);
         if (regions.level.size() == before) continue;
         fewer_steps = trace_steps(map, traced.changed, lattice, regions);
         steps = foretell_elements(fewer_steps, result.tolerance);
@@ -329,6 +329,7 @@ Result<TracedMap> trace_map(const HeightMap& map, const VectorizeOptions& option
     auto traced = std::make_shared<Traced>();
     traced->lattice = {map.image.width, map.image.height, wrap == Wrap::repeat, thread_count(options.threads)};
     traced->noise = estimate_noise(map.image, traced->lattice);
+    traced->damage = std::max(traced->noise, estimate_ringing(map.image, traced->lattice));
     traced->energy = detail_variance(map.image, wrap, traced->lattice.threads) * static_cast<double>(map.image.texels.size());
     if (progress && !progress("vectorize", 0.05)) return stopped();
     find_features(map.image, *traced);

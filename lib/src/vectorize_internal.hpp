@@ -134,6 +134,7 @@ using Changed = std::vector<ChangedTexel>;
 struct Traced {
     Lattice lattice;
     double noise = 0.0;   // see Vectorized
+    double damage = 0.0;  // the greater of noise and ringing
     double energy = 0.0;
     std::vector<Chain> lines, steps;
     Changed changed;  // what the map without its lines has otherwise than the map
@@ -153,6 +154,9 @@ std::vector<Chain> clip_chains(const std::vector<Chain>& chains, int margin, con
 
 // Standard deviation of the map's grain, robust against edges.
 double estimate_noise(const Image& map, const Lattice& lattice);
+
+// The same of what lies near edges but not on them, where JPEG rings: levels that differ by no more are its work.
+double estimate_ringing(const Image& map, const Lattice& lattice);
 
 // Lines narrower than twice `radius` texels are looked for; below `widest`, only those on level ground far to both sides.
 struct LineScale {

@@ -56,6 +56,25 @@ TEST(VectorizeMaps, GrainMakesNoPaths) {
     expect_found(r, 0.1);
 }
 
+// Sharp walls ring in their blocks; that is no plateau around every stroke.
+TEST(VectorizeMaps, RingingIsNoPlateau) {
+    Uniform random(seed_of_run());
+    DrawnMap map(0.4);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28);
+        const Vec2 c = map.field(i);
+        map.draw(map.pens().groove(random(4, 8), kDepth), polyline({c - toward(along, 48), c, c + toward(along + random(-0.9, 0.9), 48)}));
+    }
+    const Pattern drawing = map.take();
+    Image image = bench::map_of(drawing, kTexels, 16);
+    bench::ring_in_blocks(image);
+    const Recovered r = recovered_from(image, drawing);
+    report("JPEG 85", r);
+    EXPECT_EQ(r.structure.paths.recovered, r.structure.paths.authored);
+    EXPECT_EQ(r.contour.lost, 0.0);
+    EXPECT_LT(r.contour.rms, 0.06);
+}
+
 // A vignette around a groove is shape, and no part of its profile.
 TEST(VectorizeMaps, ShadingAroundGroovesIsNoGroove) {
     Uniform random(seed_of_run());
