@@ -51,9 +51,10 @@ class MovingDisc {
 std::vector<std::int32_t> claim_texels(const std::vector<Chain>& chains, const Lattice& lattice) {
     std::vector<std::int32_t> owner(static_cast<std::size_t>(lattice.size()), kNobody);
     for (std::size_t c = 0; c < chains.size(); ++c) {
-        MovingDisc disc(static_cast<int>(std::ceil(chains[c].half_width + 1.0)));
-        for_each_place(chains[c], [&](Vec2 p, Vec2) {
-            disc.move_to(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)), [&](int x, int y) {
+        std::map<int, MovingDisc> discs;  // by reach
+        for_each_place(chains[c], [&](Vec2 p, Vec2, double half_width) {
+            const int reach = static_cast<int>(std::ceil(half_width + 1.0));
+            discs.try_emplace(reach, reach).first->second.move_to(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)), [&](int x, int y) {
                 const int texel = lattice.index(x, y);
                 if (texel < 0) return;
                 const bool free = owner[texel] == kNobody || owner[texel] == static_cast<std::int32_t>(c);
@@ -83,9 +84,9 @@ struct Surroundings {
 };
 
 // Whether another line lies `offset` texels beside a chain: another chain, or another turn of the same.
-bool is_beside(const Chain& chain, std::int32_t self, const Surroundings& around, Vec2 p, double offset) {
+bool is_beside(double half_width, std::int32_t self, const Surroundings& around, Vec2 p, double offset) {
     const auto owner = around.owner[around.lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))];
-    return owner != kNobody && (owner != self || std::fabs(offset) > chain.half_width + 2.5);
+    return owner != kNobody && (owner != self || std::fabs(offset) > half_width + 2.5);
 }
 
 // How far a chain is measured to its sides, texels.
@@ -96,11 +97,11 @@ struct Reach {
 // How far from a chain, at half of its places, the next one begins; at most `furthest`.
 Reach free_reach(const Chain& chain, std::int32_t self, const Surroundings& around, double furthest) {
     std::vector<double> free[2];
-    for_each_place(chain, [&](Vec2 p, Vec2 normal) {
+    for_each_place(chain, [&](Vec2 p, Vec2 normal, double half_width) {
         for (const int side : {0, 1}) {
             const double sign = side == 0 ? -1.0 : 1.0;
             double reach = 0.5;
-            while (reach < furthest && !is_beside(chain, self, around, p + normal * (sign * reach), reach)) reach += 0.5;
+            while (reach < furthest && !is_beside(half_width, self, around, p + normal * (sign * reach), reach)) reach += 0.5;
             free[side].push_back(std::min(reach, furthest));
         }
     });
@@ -113,13 +114,16 @@ Reach free_reach(const Chain& chain, std::int32_t self, const Surroundings& arou
     return {median(free[0]), median(free[1])};
 }
 
-// One row per place along the chain, offsets by steps of half a texel; the mean of both ends is subtracted, so that a line
-// that runs over soft or stepped ground still has one section.
+// One row per place along the chain, offsets by steps of half a texel, or in proportion where the line is narrower or wider
+// than elsewhere; the mean of both ends is subtracted, so that a line that runs over soft or stepped ground still has one
+// section.
 struct Rows {
     int left = 0;                             // columns before the one at offset 0
     std::vector<std::vector<float>> columns;  // per offset
     std::vector<float> tilts;
 };
+
+constexpr double kPoint = 1.0;  // half-width below which a taper is but blur
 
 // `alone`: only places where no other chain comes near.
 Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach, bool alone) {
@@ -136,13 +140,16 @@ Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& 
         // Where points are missing the chain was bridged over a crossing.
         if (l == 0.0 || (alone && l > kBridge)) continue;
         const Vec2 normal = normal_of(unit(b - a));
+        const double half_width = chain.half_width_at(i);
+        if (!chain.half_widths.empty() && half_width < kPoint) continue;
+        const double step = 0.5 * half_width / chain.half_width;
         const int pieces = std::max(1, static_cast<int>(l / 2.0));
         for (int piece = 0; piece < pieces; ++piece) {
             const Vec2 p = lerp(a, b, (piece + 0.5) / pieces);
             bool disturbed = false;
             for (int k = -rows.left; k <= right; ++k) {
-                const Vec2 q = p + normal * (k * 0.5);
-                disturbed |= is_beside(chain, self, around, q, k * 0.5);
+                const Vec2 q = p + normal * (k * step);
+                disturbed |= is_beside(half_width, self, around, q, k * step);
                 row[static_cast<std::size_t>(k + rows.left)] = sample(around.map, around.lattice, q);
             }
             if (alone && disturbed) continue;
@@ -203,6 +210,20 @@ bool has_one_section(const Chain& chain, std::int32_t self, const Surroundings& 
     const bool straight_rims = chain.half_width < 2.5 || section.wobble - grain < most_wobble;
     return section.depth > std::max(3.0 * noise, 0.012) && std::fabs(section.tilt) < 0.35 * section.depth &&
            section.explained > 0.55 && straight_rims;
+}
+
+// A line with level ground to both sides: far, or as far as the next line, if that leaves ground wider than the line. A
+// small square fills only the bottom of a wide line or the corner of an area, and the ground between two lines looks like a
+// line of the other sign, wider than they are: those are none.
+bool stands_alone(const Chain& chain, std::int32_t self, const Surroundings& around) {
+    if (chain_length(chain) < 6.0 * chain.half_width + 8.0) return false;
+    const double far = 3.0 * chain.half_width + 4.0;
+    const double least = std::min(far, std::max(chain.half_width + 2.0, 2.2 * chain.half_width));
+    const Reach reach = free_reach(chain, self, around, far);
+    if (std::min(reach.left, reach.right) < least) return false;
+    const CrossSection section = measure_cross_section(chain, self, around, reach);
+    return section.depth > 0.9 * chain.contrast && std::fabs(section.tilt) < 0.2 * section.depth &&
+           section.explained > 0.93;
 }
 
 bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) {
@@ -276,18 +297,8 @@ std::size_t find_change(const Chain& chain, const Image& map, const Lattice& lat
     return at;
 }
 
-// A line with level ground to both sides: far, or as far as the next line, if that leaves ground wider than the line. A
-// small square fills only the bottom of a wide line or the corner of an area, and the ground between two lines looks like a
-// line of the other sign, wider than they are: those are none.
-bool stands_alone(const Chain& chain, std::int32_t self, const Surroundings& around, double radius) {
-    if (chain.half_width > 0.6 * radius || chain_length(chain) < 6.0 * chain.half_width + 8.0) return false;
-    const double far = 3.0 * chain.half_width + 4.0;
-    const double least = std::min(far, std::max(chain.half_width + 2.0, 2.2 * chain.half_width));
-    const Reach reach = free_reach(chain, self, around, far);
-    if (std::min(reach.left, reach.right) < least) return false;
-    const CrossSection section = measure_cross_section(chain, self, around, reach);
-    return section.depth > 0.9 * chain.contrast && std::fabs(section.tilt) < 0.2 * section.depth &&
-           section.explained > 0.93;
+double widest_of(const Chain& chain) {
+    return chain.half_widths.empty() ? chain.half_width : *std::max_element(chain.half_widths.begin(), chain.half_widths.end());
 }
 
 // A chain that is a line; of one that is not, the parts before and behind its greatest change that are.
@@ -304,11 +315,12 @@ std::vector<Chain> keep_lines(const Chain& whole, std::int32_t self, const Surro
         stack.pop_back();
         if (chain_energy(chain) < least_energy) continue;
         if (is_supported(chain, around) && is_line(chain, self, around) &&
-            (scale.radius == scale.widest || stands_alone(chain, self, around, scale.radius))) {
+            (scale.radius == scale.widest || (widest_of(chain) <= 0.6 * scale.radius && stands_alone(chain, self, around)))) {
             kept.push_back(std::move(chain));
             continue;
         }
-        const bool splits_well = splits < 3 && !chain.closed && chain.points.size() >= 24 && chain.half_width <= kBroad;
+        const bool splits_well = splits < 3 && !chain.closed && chain.points.size() >= 24 && chain.half_width <= kBroad &&
+                                 chain.half_widths.empty();
         const std::size_t at = splits_well ? find_change(chain, around.map, around.lattice) : 0;
         if (at == 0) continue;
         Chain second = chain;

@@ -10,7 +10,7 @@
 
 namespace burin::vectorizing {
 
-// Calls visit(point, normal) about once a texel along the chain.
+// Calls visit(point, normal, half_width) about once a texel along the chain.
 template <typename Visit>
 void for_each_place(const Chain& chain, const Visit& visit) {
     for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < chain.points.size(); ++i) {
@@ -19,7 +19,9 @@ void for_each_place(const Chain& chain, const Visit& visit) {
         if (length(b - a) == 0.0) continue;
         const int pieces = std::max(1, static_cast<int>(std::ceil(length(b - a))));
         for (int piece = 0; piece <= pieces; ++piece)
-            visit(lerp(a, b, static_cast<double>(piece) / pieces), normal_of(unit(b - a)));
+            visit(lerp(a, b, static_cast<double>(piece) / pieces), normal_of(unit(b - a)),
+                  std::lerp(chain.half_width_at(i), chain.half_width_at((i + 1) % chain.points.size()),
+                            static_cast<double>(piece) / pieces));
     }
 }
 

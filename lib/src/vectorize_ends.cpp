@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace burin::vectorizing {
 namespace {
@@ -116,35 +117,62 @@ TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
     return tail;
 }
 
-// The visible end of a line lies where its response falls to half; a hip cap puts the path's end half a width before.
-// The skeleton of a cap leads into one of its corners: the last points are put where the chain comes to from behind.
-void settle_free_end(std::vector<Vec2>& points, const Chain& chain, const Image& response, const Lattice& lattice) {
-    if (points.size() < 2) return;
-    const double disturbed = chain.half_width + 1.0, span = 4.0 * chain.half_width + 8.0;
-    std::size_t last = points.size() - 1;
-    while (last > 3 && length(points[last] - points.back()) < disturbed && length(points[last] - points[last - 1]) < kBridge) --last;
+// The width of a line at its last point, and what it loses by every texel towards there.
+struct EndWidth {
+    double half_width = 0.0, slope = 0.0;
+
+    explicit EndWidth(const Chain& chain) : half_width(chain.half_width_at(chain.points.size() - 1)) {
+        const std::size_t n = chain.points.size(), before = n - std::min<std::size_t>(n, 16);
+        const double run = length(chain.points.back() - chain.points[before]);
+        if (run > 0.0) slope = (chain.half_width_at(before) - half_width) / run;
+    }
+};
+
+// The way up to point `last`, where the cap begins; none where the points are too few.
+std::optional<TailCurve> follow_tail(const std::vector<Vec2>& points, std::size_t last, double half_width, double tightest) {
     // Of a tight curve, or behind a corner, fewer points tell more: a parabola is an arc only as long as it turns little.
     constexpr double kMostTurn = 1.2, kMostMisfit = 0.3;
-    TailCurve tail;
-    for (double reach = span; reach == span || ((tail.turn > kMostTurn || tail.misfit > kMostMisfit) && reach > 4.0);
-         reach *= 0.75) {
+    for (double reach = 4.0 * half_width + 8.0;; reach *= 0.75) {
         std::vector<Vec2> near;
         for (std::size_t k = last + 1; k-- > 0;) {
             if (near.size() >= 2 && length(points[k] - near.back()) > kBridge) break;
             if (near.size() >= 4 && length(points[k] - near.front()) > reach) break;
             near.push_back(points[k]);
         }
-        if (near.size() < 2 || near.front() == near.back()) return;
-        tail = fit_tail(near, chain.half_width);
+        if (near.size() < 2 || near.front() == near.back()) return {};
+        const TailCurve tail = fit_tail(near, tightest);
+        if ((tail.turn <= kMostTurn && tail.misfit <= kMostMisfit) || 0.75 * reach <= 4.0) return tail;
     }
-    const double half = 0.5 * chain.contrast, furthest = length(points.back() - points[last]) + 4.0 * chain.half_width + 8.0;
+}
+
+// The visible end of a line lies where its response falls to half; a hip cap puts the path's end half a width before.
+// The skeleton of a cap leads into one of its corners: the last points are put where the chain comes to from behind.
+// One that tapers to a point shows there as much as it is wide in texels, and goes on a little beyond what is seen.
+void settle_free_end(Chain& chain, const Image& response, const Lattice& lattice) {
+    constexpr double kPoint = 0.3;     // of the line's usual half-width: an end narrower than that is a point
+    constexpr double kVisible = 0.15;  // of the line's contrast
+    constexpr double kMostUnseen = 6.0;
+    std::vector<Vec2>& points = chain.points;
+    if (points.size() < 2) return;
+    const auto [half_width, slope] = EndWidth(chain);
+    const bool is_point = half_width < kPoint * chain.half_width;
+    const double disturbed = half_width + 1.0;
+    std::size_t last = points.size() - 1;
+    while (last > 3 && length(points[last] - points.back()) < disturbed && length(points[last] - points[last - 1]) < kBridge) --last;
+    const std::optional<TailCurve> tail = follow_tail(points, last, half_width, std::max(half_width, 0.5 * chain.half_width));
+    if (!tail) return;
+    const double least = (is_point ? kVisible : 0.5) * chain.contrast;
+    const double furthest = length(points.back() - points[last]) + 4.0 * chain.half_width + 8.0;
     double t = 0.0;
-    while (t < furthest && sample(response, lattice, tail.at(t)) >= half) t += 0.25;
-    const double end = t - 0.125 - chain.half_width;
+    while (t < furthest && sample(response, lattice, tail->at(t)) >= least) t += 0.25;
+    const double unseen = std::min(0.5 * kVisible / std::max(1e-3, slope), kMostUnseen);
+    const double end = t - 0.125 + (is_point ? unseen : -half_width);
     points.resize(last + 1);
-    while (points.size() > 2 && dot(points.back() - tail.at(end), tail.along) > -0.25) points.pop_back();
-    for (double s = 1.0; s < end - 0.5; s += 1.0) points.push_back(tail.at(s));
-    if (end > -disturbed) points.push_back(tail.at(end));
+    while (points.size() > 2 && dot(points.back() - tail->at(end), tail->along) > -0.25) points.pop_back();
+    if (!chain.half_widths.empty()) chain.half_widths.resize(points.size());
+    for (double s = 1.0; s < end - 0.5; s += 1.0) points.push_back(tail->at(s));
+    if (end > -disturbed) points.push_back(tail->at(end));
+    if (!chain.half_widths.empty()) chain.half_widths.resize(points.size(), half_width);
 }
 
 }  // namespace
@@ -177,12 +205,12 @@ void sharpen_corners(Chain& chain) {
 }
 
 void settle_ends(Chain& chain, const Image& response, const Lattice& lattice) {
-    if (chain.closed) return;
-    if (chain.end_tie == EndTie::free) settle_free_end(chain.points, chain, response, lattice);
-    if (chain.start_tie == EndTie::free) {
+    measure_half_widths(chain, response, lattice);
+    if (chain.closed || chain.points.empty()) return;
+    for (const EndTie tie : {chain.end_tie, chain.start_tie}) {
+        if (tie == EndTie::free) settle_free_end(chain, response, lattice);
         std::reverse(chain.points.begin(), chain.points.end());
-        settle_free_end(chain.points, chain, response, lattice);
-        std::reverse(chain.points.begin(), chain.points.end());
+        std::reverse(chain.half_widths.begin(), chain.half_widths.end());
     }
 }
 

@@ -79,12 +79,16 @@ struct Chain {
     std::vector<Vec2> points;
     bool closed = false;
     Spot spot = Spot::no;
-    double half_width = 0.0;  // of a line, at half its height
+    double half_width = 0.0;  // of a line, at half its height; of one that tapers or swells the median
+    // Of every point, where the width clearly changes along the line; kept while the lines of a scale are looked for.
+    std::vector<double> half_widths;
     double contrast = 0.0;    // height of the line or of the step
     EndTie start_tie = EndTie::free;
     EndTie end_tie = EndTie::free;
     std::uint32_t left_region = 0, right_region = 0;  // index into Regions::level; equal for lines
     Vec2 winding;                                     // p(end) - p(start) of a closed chain: a multiple of the tile
+
+    double half_width_at(std::size_t point) const { return half_widths.empty() ? half_width : half_widths[point]; }
 };
 
 // The map's plateaus. Every texel is of a part; regions are made of parts, and grow by being joined.

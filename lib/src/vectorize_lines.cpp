@@ -56,8 +56,7 @@ void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::uint
     };
     std::vector<std::int32_t> part_of(chains.size(), -1);
     for (std::size_t c = 0; c < chains.size(); ++c)
-        for_each_place(chains[c], [&](Vec2 p, Vec2) {
-            const double half_width = chains[c].half_width;
+        for_each_place(chains[c], [&](Vec2 p, Vec2, double half_width) {
             for_each_texel_near(p, lattice, static_cast<int>(std::ceil(half_width + 1.0)), [&](int texel, Vec2 centre) {
                 const double distance = length(centre - p);
                 if (part_of[c] < 0 && distance < 1.0) part_of[c] = part_at(texel);
@@ -76,8 +75,8 @@ void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::uint
         part.different += static_cast<double>(std::count(row + run.begin, row + run.end, 0));
     });
     for (std::size_t c = 0; c < chains.size(); ++c)
-        for_each_place(chains[c], [&](Vec2 p, Vec2) {
-            for_each_texel_near(p, lattice, static_cast<int>(std::ceil(chains[c].half_width)), [&](int texel, Vec2) {
+        for_each_place(chains[c], [&](Vec2 p, Vec2, double half_width) {
+            for_each_texel_near(p, lattice, static_cast<int>(std::ceil(half_width)), [&](int texel, Vec2) {
                 if (band[texel] != 2 || mask[texel] || part_of[c] < 0) return;
                 band[texel] = 0;
                 area[part_of[c]].different += 1.0;
@@ -108,13 +107,19 @@ void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::uint
     });
 }
 
+// A place of a line, and how the line runs there.
+struct LinePlace {
+    Vec2 point, normal;
+    double half_width = 0.0;
+};
+
 // Whether something deeper than the ground, and no other chain, lies beside a place of a chain: there the chain crosses an
 // area or a line that is still to be found, and takes nothing away.
-bool crosses_unknown(const Chain& chain, Vec2 p, Vec2 normal, const Image& response, const Lattice& lattice,
+bool crosses_unknown(const Chain& chain, const LinePlace& place, const Image& response, const Lattice& lattice,
                      const std::vector<std::int32_t>& owner) {
-    const double beside = 1.6 * chain.half_width + 1.5;
+    const double beside = 1.6 * place.half_width + 1.5;
     for (const double side : {-beside, beside}) {
-        const Vec2 q = p + normal * side;
+        const Vec2 q = place.point + place.normal * side;
         const int texel = lattice.nearest(static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)));
         if (owner[texel] == kNobody && sample(response, lattice, q) > 0.5 * chain.contrast) return true;
     }
@@ -142,14 +147,15 @@ void for_each_texel_across(Vec2 p, Vec2 normal, const Lattice& lattice, int reac
 }
 
 // How far to its sides a line takes texels.
-double covered_reach(const Chain& chain) { return 1.5 * chain.half_width + 2.0; }
+double covered_reach(double half_width) { return 1.5 * half_width + 2.0; }
 
 // How far a line reaches beyond the middle of a place of its chain: round the end of a line, and out to the tip of a corner.
 // 0: nowhere but across.
 double reach_round(const Chain& chain, std::ptrdiff_t i) {
     constexpr double kLeastTurn = 0.5;  // radians
     const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(chain.points.size());
-    if (!chain.closed && (i == 0 || i + 1 == count)) return covered_reach(chain);
+    const double half_width = chain.half_width_at(static_cast<std::size_t>(i));
+    if (!chain.closed && (i == 0 || i + 1 == count)) return covered_reach(half_width);
     const auto point = [&](std::ptrdiff_t k) {
         if (!chain.closed) return chain.points[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k, 0, count - 1))];
         if (k < 0) return chain.points[static_cast<std::size_t>(k + count)] - chain.winding;
@@ -157,7 +163,7 @@ double reach_round(const Chain& chain, std::ptrdiff_t i) {
     };
     // A corner that is cut off turns by and by.
     const Vec2 p = point(i);
-    const double baseline = 2.0 * chain.half_width + 2.0;
+    const double baseline = 2.0 * half_width + 2.0;
     const auto neighbour = [&](std::ptrdiff_t step) {
         std::ptrdiff_t k = i + step;
         while (std::abs(k - i) < count / 2 && length(point(k) - p) < baseline) k += step;
@@ -167,7 +173,7 @@ double reach_round(const Chain& chain, std::ptrdiff_t i) {
     if (a == p || b == p) return 0.0;
     const double turn = std::acos(std::clamp(dot(unit(p - a), unit(b - p)), -1.0, 1.0));
     if (turn < kLeastTurn) return 0.0;
-    return std::min(chain.half_width / std::max(0.25, std::cos(0.5 * turn)) + 2.0, 4.0 * chain.half_width + 2.0);
+    return std::min(half_width / std::max(0.25, std::cos(0.5 * turn)) + 2.0, 4.0 * half_width + 2.0);
 }
 
 // The texels of the lines, each once.
@@ -181,9 +187,9 @@ std::vector<int> covered_texels(const Image& response, const Lattice& lattice, c
     };
     for (const Chain& chain : chains) {
         // Beyond the place itself only where it must be: the next one may cross something.
-        for_each_place(chain, [&](Vec2 p, Vec2 normal) {
-            if (crosses_unknown(chain, p, normal, response, lattice, owner)) return;
-            for_each_texel_across(p, normal, lattice, static_cast<int>(std::ceil(covered_reach(chain))), cover);
+        for_each_place(chain, [&](Vec2 p, Vec2 normal, double half_width) {
+            if (crosses_unknown(chain, {p, normal, half_width}, response, lattice, owner)) return;
+            for_each_texel_across(p, normal, lattice, static_cast<int>(std::ceil(covered_reach(half_width))), cover);
         });
         for (std::size_t i = 0; i < chain.points.size(); ++i) {
             const double reach = reach_round(chain, static_cast<std::ptrdiff_t>(i));
@@ -191,7 +197,7 @@ std::vector<int> covered_texels(const Image& response, const Lattice& lattice, c
             if (reach == 0.0 || p == other) continue;
             // Beside a corner lies its own tip.
             const bool is_end = !chain.closed && (i == 0 || i + 1 == chain.points.size());
-            if (!is_end || !crosses_unknown(chain, p, normal_of(unit(p - other)), response, lattice, owner))
+            if (!is_end || !crosses_unknown(chain, {p, normal_of(unit(p - other)), chain.half_width_at(i)}, response, lattice, owner))
                 for_each_texel_near(p, lattice, static_cast<int>(std::ceil(reach)), cover);
         }
     }
@@ -277,14 +283,15 @@ std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const
     std::vector<Chain> chains = keep_lines(all, mask, parts, map, lattice, noise, 2e-5 * energy, scale);
     if (scale.radius == scale.widest) drop_partial_shapes(chains, mask, parts, lattice, scale.radius);
     if (!chains.empty()) erase_lines(map, response, lattice, chains, kind, scale, least, erased);
+    for (Chain& chain : chains) chain.half_widths.clear();
     return chains;
 }
 
 void tie_lines(std::vector<Chain>& chains, const std::vector<Chain>& others, const Image& response, const Lattice& lattice) {
     std::vector<std::uint8_t> hidden(static_cast<std::size_t>(lattice.size()), 0);
     for (const Chain& other : others) {
-        const int reach = static_cast<int>(std::ceil(covered_reach(other))) + 1;
-        for_each_place(other, [&](Vec2 p, Vec2 normal) {
+        const int reach = static_cast<int>(std::ceil(covered_reach(other.half_width))) + 1;
+        for_each_place(other, [&](Vec2 p, Vec2 normal, double) {
             for_each_texel_across(p, normal, lattice, reach, [&](int texel, Vec2) { hidden[texel] = 1; });
         });
     }

@@ -56,6 +56,9 @@ std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const
 // Puts corners that were cut off where the straight lines on both sides of them meet.
 void sharpen_corners(Chain& chain);
 
+// Fills Chain::half_widths of a line that clearly tapers or swells, and steadily so.
+void measure_half_widths(Chain& chain, const Image& response, const Lattice& lattice);
+
 // Puts the free ends of a chain where its response ends, on the way the chain comes from.
 void settle_ends(Chain& chain, const Image& response, const Lattice& lattice);
 

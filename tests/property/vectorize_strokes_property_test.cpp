@@ -162,6 +162,26 @@ TEST(VectorizeStrokes, WideFlatGroovesAreFoundOnce) {
     EXPECT_LT(r.contour.rms, 0.02);
 }
 
+// Down to a fourth of the width, to a point, swelling in the middle, and along arcs.
+TEST(VectorizeStrokes, TapersAreOnePathEach) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.0);
+    const std::vector<double> widths[] = {{1.0, 0.25}, {1.0, 0.0}, {0.4, 1.0, 0.4}, {0.25, 1.0}};
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28);
+        const Vec2 c = map.field(i), reach = toward(along, random(46, 54));
+        Stroke stroke = i < 2   ? polyline({c - reach, c + reach})
+                        : i < 3 ? polyline({c - reach, c, c + reach})
+                                : arc(c, random(36, 46), along, along + random(2.5, 4.0));
+        map.draw(map.pens().groove(random(9, 12), kDepth), stroke.taper(widths[i]));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("tapers", r);
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_EQ(r.contour.lost, 0.0);
+    EXPECT_LT(r.contour.rms, 0.05);
+}
+
 // Both ways: the upper of two ridges runs on over the lower, which is one path all the same.
 TEST(VectorizeStrokes, RidgesCrossOverAndUnder) {
     Uniform random(seed_of_run());
