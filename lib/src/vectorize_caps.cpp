@@ -51,7 +51,7 @@ double left_by(bool round, const Look& look, const End& end, const Profile& prof
     double least = 1e300;
     for (double shift = -1.5; shift <= 1.5; shift += 0.25) {
         double left = 0.0;
-        for (std::size_t i = 0; i < look.places.size(); ++i) {
+        for (std::size_t i = 0; i < look.places.size() && left < least; ++i) {
             const double past = std::max(0.0, look.places[i].x - shift), across = std::fabs(look.places[i].y);
             const double offset = round ? std::hypot(past, across) : std::max(past, across);
             const double height = end.height * height_at(profile, std::copysign(offset, look.places[i].y) / end.width);

@@ -65,14 +65,17 @@ bool intersect(const Arm& a, const Arm& b, Vec2& point) {
 
 // How badly two arms continue each other: turning angle in radians plus offset; above 1 they do not.
 double continuation_cost(const Arm& a, const Arm& b) {
-    const double turn = std::acos(std::clamp(-dot(a.direction, b.direction), -1.0, 1.0));
+    constexpr double kMostTurn = 0.5, kCosine = 0.8775;  // kCosine: just below that of kMostTurn, and at once at hand
+    const double cosine = -dot(a.direction, b.direction);
+    if (cosine < kCosine) return 2.0;
+    const double turn = std::acos(std::min(cosine, 1.0));
     const Vec2 between = b.foot - a.foot;
     const double offset = std::max(std::fabs(cross(a.direction, between)), std::fabs(cross(b.direction, between)));
     const double allowed = 0.35 * std::max(a.half_width, b.half_width) + 0.6 + 0.12 * length(between);
     const double width_ratio = (std::max(a.half_width, b.half_width) + 0.5) / (std::min(a.half_width, b.half_width) + 0.5);
     const double contrast_ratio = std::max(a.contrast, b.contrast) / std::max(1e-6, std::min(a.contrast, b.contrast));
-    if (turn > 0.5 || offset > allowed || width_ratio > 1.6 || contrast_ratio > 2.0) return 2.0;
-    return turn / 0.5 * 0.5 + offset / allowed * 0.5;
+    if (turn > kMostTurn || offset > allowed || width_ratio > 1.6 || contrast_ratio > 2.0) return 2.0;
+    return turn / kMostTurn * 0.5 + offset / allowed * 0.5;
 }
 
 void pair_through(Joint& joint) {

@@ -111,7 +111,8 @@ void make_symmetric(Section& section) {
     add_section(section, mirrored);
 }
 
-// Sections of all chains: heights relative to the ground of the side, mean over the texels of each offset.
+// Sections of all chains as the map shows them: heights relative to the ground of the side, mean over the texels of each
+// offset.
 std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, const Image& map,
                                       const std::vector<Owner>& owners, const Regions& regions, int half) {
     const std::size_t bins = static_cast<std::size_t>(2 * half + 1);
@@ -152,10 +153,15 @@ std::vector<Section> measure_sections(const std::vector<FittedChain>& chains, co
             sections[c].height[k] = trimmed_mean(begin, end);
             sections[c].weight[k] = picked[c * bins + k].count;
         }
-        if (chains[c].chain.kind != ChainKind::step) level_tails(sections[c]);
-        if (chains[c].chain.spot != Spot::no) make_symmetric(sections[c]);
     }
     return sections;
+}
+
+// What a chain's section is compared and shared as.
+Section settle_section(Section section, const Chain& chain) {
+    if (chain.kind != ChainKind::step) level_tails(section);
+    if (chain.spot != Spot::no) make_symmetric(section);
+    return section;
 }
 
 // Weighted root mean square difference over the offsets that both have.
@@ -169,6 +175,51 @@ double difference(const Section& a, const Section& b) {
     }
     return weight > 0.0 ? std::sqrt(sum / weight) : 1e300;
 }
+
+// A section in few bytes, for a look that tells most pairs apart: from the middle outwards, where sections differ most.
+class Glance {
+  public:
+    explicit Glance(const Section& section) : height_(padded(section)), weight_(padded(section)) {
+        const std::size_t half = section.height.size() / 2;
+        for (std::size_t i = 0; i < section.height.size(); ++i) {
+            const std::size_t k = i % 2 == 1 ? half + (i + 1) / 2 : half - i / 2;
+            height_[i] = static_cast<float>(section.height[k]);
+            weight_[i] = static_cast<float>(section.weight[k]);
+            total_ += section.weight[k];
+        }
+    }
+
+    // Whether the difference of the two sections is certainly above `limit`: the sum over a part of the offsets, over at
+    // least the weight of all, is a lower bound. What floats round off is far below the margins.
+    bool differs(const Glance& other, double limit) const {
+        const double safe = 1.001 * limit + 1e-6;
+        const double most = safe * safe * std::min(total_, other.total_);
+        double sum = 0.0;
+        for (std::size_t first = 0; first < height_.size(); first += kBlock) {
+            sum += difference(other, first);
+            if (sum > most) return true;
+        }
+        return false;
+    }
+
+  private:
+    static constexpr std::size_t kBlock = 16, kLanes = 4;
+
+    static std::vector<float> padded(const Section& section) {
+        return std::vector<float>((section.height.size() + kBlock - 1) / kBlock * kBlock, 0.0f);
+    }
+    float difference(const Glance& other, std::size_t first) const {
+        const float *h = &height_[first], *w = &weight_[first], *g = &other.height_[first], *v = &other.weight_[first];
+        float lanes[kLanes] = {};
+        for (std::size_t k = 0; k < kBlock; k += kLanes)
+            for (std::size_t i = 0; i < kLanes; ++i)
+                lanes[i] += (w[k + i] < v[k + i] ? w[k + i] : v[k + i]) * (h[k + i] - g[k + i]) * (h[k + i] - g[k + i]);
+        return lanes[0] + lanes[1] + lanes[2] + lanes[3];
+    }
+
+    std::vector<float> height_, weight_;
+    double total_ = 0.0;
+};
 
 double amplitude(const Section& section) {
     double most = 0.0;
@@ -193,16 +244,62 @@ void reverse_chain(FittedChain& fitted) {
 
 struct Cluster {
     Section section;
-    ChainKind kind = ChainKind::groove;
-    double step = 0.0;  // right level - left level
+    Glance glance;
+    bool is_step = false;
+    double rise = 0.0;  // of a step: right level - left level
 };
 
-// Longest chains first: each joins the cluster most like it, or founds one. `reversed`: 1 for the chains that were turned
-// round for that.
+// A chain on its way into a cluster.
+struct Newcomer {
+    Section section, mirrored;
+    Glance glance, mirrored_glance;
+    bool is_step = false;
+    double rise = 0.0;     // as of a cluster
+    double allowed = 0.0;  // difference from the cluster it joins
+};
+
+Newcomer look_at(const Chain& chain, Section section, const Regions& regions, double closeness, double noise) {
+    const bool step = chain.kind == ChainKind::step;
+    const double rise = step ? regions.level[chain.right_region] - regions.level[chain.left_region] : 0.0;
+    // A spot is its section and a place, so that a section that is a little too wide shows all round it.
+    const double close = chain.spot == Spot::no ? closeness : 0.2 * closeness;
+    const double allowed = close * std::max(amplitude(section), std::fabs(rise)) + noise;
+    Section mirrored = section;
+    mirror(mirrored);
+    const Glance glance(section), mirrored_glance(mirrored);
+    return {std::move(section), std::move(mirrored), glance, mirrored_glance, step, rise, allowed};
+}
+
+struct Choice {
+    std::size_t cluster = 0;
+    bool flip = false;  // the section fits when the chain is turned round
+};
+
+// The cluster most like the newcomer; the number of clusters where none is close enough.
+Choice choose_cluster(const Newcomer& newcomer, const std::vector<Cluster>& clusters) {
+    double best = newcomer.allowed;
+    Choice choice{clusters.size(), false};
+    for (std::size_t k = 0; k < clusters.size(); ++k) {
+        const Cluster& cluster = clusters[k];
+        if (cluster.is_step != newcomer.is_step || std::fabs(cluster.rise - newcomer.rise) > 1e-9) continue;
+        const auto is_closer = [&](const Section& section, const Glance& glance, double limit) {
+            if (cluster.glance.differs(glance, limit)) return false;
+            const double d = difference(cluster.section, section);
+            if (d < limit) best = d;
+            return d < limit;
+        };
+        if (is_closer(newcomer.section, newcomer.glance, best)) choice = {k, false};
+        if (newcomer.is_step) continue;
+        if (is_closer(newcomer.mirrored, newcomer.mirrored_glance, 0.9 * best)) choice = {k, true};
+    }
+    return choice;
+}
+
+// Longest chains first: each joins the cluster most like it, or founds one. Chains, and their sections, that were turned
+// round for that change their mark in `reversed`.
 std::vector<Cluster> cluster_sections(std::vector<FittedChain>& chains, std::vector<Section>& sections,
                                       const Regions& regions, double closeness, double noise,
                                       std::vector<std::uint8_t>& reversed) {
-    reversed.assign(chains.size(), 0);
     std::vector<std::size_t> order(chains.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
@@ -210,34 +307,22 @@ std::vector<Cluster> cluster_sections(std::vector<FittedChain>& chains, std::vec
     std::vector<Cluster> clusters;
     for (const std::size_t c : order) {
         const Chain& chain = chains[c].chain;
-        const bool step = chain.kind == ChainKind::step;
-        const double rise = step ? regions.level[chain.right_region] - regions.level[chain.left_region] : 0.0;
-        // A spot is its section and a place, so that a section that is a little too wide shows all round it.
-        const double close = chain.spot == Spot::no ? closeness : 0.2 * closeness;
-        const double allowed = close * std::max(amplitude(sections[c]), std::fabs(rise)) + noise;
-        double best = allowed;
-        std::size_t chosen = clusters.size();
-        bool flip = false;
-        Section mirrored = sections[c];
-        mirror(mirrored);
-        for (std::size_t k = 0; k < clusters.size(); ++k) {
-            if ((clusters[k].kind == ChainKind::step) != step || std::fabs(clusters[k].step - rise) > 1e-9) continue;
-            const double d = difference(clusters[k].section, sections[c]);
-            if (d < best) best = d, chosen = k, flip = false;
-            if (step) continue;
-            const double m = difference(clusters[k].section, mirrored);
-            if (m < 0.9 * best) best = m, chosen = k, flip = true;
-        }
-        if (flip) {
+        Newcomer newcomer = look_at(chain, settle_section(sections[c], chain), regions, closeness, noise);
+        const Choice choice = choose_cluster(newcomer, clusters);
+        if (choice.flip) {
             reverse_chain(chains[c]);
-            reversed[c] = 1;
-            sections[c] = mirrored;
+            reversed[c] ^= 1;
+            mirror(sections[c]);
         }
-        chains[c].profile = static_cast<std::uint32_t>(chosen);
-        if (chosen == clusters.size())
-            clusters.push_back({sections[c], chain.kind, rise});
-        else
-            add_section(clusters[chosen].section, sections[c]);
+        Section& joining = choice.flip ? newcomer.mirrored : newcomer.section;
+        chains[c].profile = static_cast<std::uint32_t>(choice.cluster);
+        if (choice.cluster == clusters.size()) {
+            clusters.push_back({std::move(joining), std::move(newcomer.glance), newcomer.is_step, newcomer.rise});
+        } else {
+            Cluster& cluster = clusters[choice.cluster];
+            add_section(cluster.section, joining);
+            cluster.glance = Glance(cluster.section);
+        }
     }
     return clusters;
 }
@@ -315,16 +400,17 @@ ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, 
     ProfileSet set;
     double closeness = 0.04;
     std::vector<Cluster> clusters;
+    std::vector<Section> sections = measure_sections(chains, map, owners, regions, half);
+    std::vector<std::uint8_t> reversed(chains.size(), 0);
     for (int round = 0; round < 6; ++round, closeness *= 1.6) {
-        std::vector<Section> sections = measure_sections(chains, map, owners, regions, half);
-        std::vector<std::uint8_t> reversed;
         clusters = cluster_sections(chains, sections, regions, closeness, options.noise, reversed);
-        for (Owner& owner : owners)
-            if (owner.chain != kNoChain && reversed[owner.chain]) owner.offset = -owner.offset;
         if (clusters.size() <= options.most_profiles) break;
     }
+    sections = {};
+    for (Owner& owner : owners)
+        if (owner.chain != kNoChain && reversed[owner.chain]) owner.offset = -owner.offset;
     for (const Cluster& cluster : clusters)
-        set.profiles.push_back(fit_profile(cluster.section.height, cluster.section.weight, cluster.step, options.noise));
+        set.profiles.push_back(fit_profile(cluster.section.height, cluster.section.weight, cluster.rise, options.noise));
     for (FittedChain& fitted : chains) fitted.gain = 0.0;
     measure_gains(chains, set, map, owners, regions);
     measure_scales(chains, set, map, lattice, regions, owners,

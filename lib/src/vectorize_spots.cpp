@@ -135,7 +135,7 @@ struct Shape {
     double offset(Vec2 p) const {
         const double x = std::max(0.0, std::fabs(dot(p - centre, along)) - half_length);
         const double y = std::fabs(cross(along, p - centre));
-        return kind == Spot::round ? std::hypot(x, y) : std::max(x, y);
+        return kind == Spot::round ? std::sqrt(x * x + y * y) : std::max(x, y);  // std::hypot costs as much as all else
     }
 };
 
@@ -158,8 +158,9 @@ Field look_around(const Part& part, const Image& response, const Lattice& lattic
     return field;
 }
 
-// Squares that a section over the shape's offset leaves of the field: means of rings, and lines between them.
-double left_by(const Shape& shape, const Field& field) {
+// Squares that a section over the shape's offset leaves of the field: means of rings, and lines between them. From `most`
+// on they are not all counted.
+double left_by(const Shape& shape, const Field& field, double most) {
     constexpr double kRing = 0.5;  // texels
     struct Ring {
         double count = 0.0, offset = 0.0, height = 0.0;
@@ -174,7 +175,7 @@ double left_by(const Shape& shape, const Field& field) {
     }
     for (Ring& ring : rings) ring.offset /= ring.count, ring.height /= ring.count;
     double left = 0.0;
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
+    for (std::size_t i = 0; i < offsets.size() && left < most; ++i) {
         const std::size_t k = static_cast<std::size_t>(offsets[i] / kRing);
         const bool outwards = offsets[i] > rings[k].offset;
         const bool inside = outwards ? k + 1 < rings.size() && rings[k + 1].count > 0.0 : k > 0 && rings[k - 1].count > 0.0;
@@ -219,8 +220,8 @@ Fit choose_shape(const Shape& found, const Field& field, std::initializer_list<S
         for (const Vec2 along : {found.along, Vec2{1.0, 0.0}, Vec2{0.0, 1.0}})
             for (const double length : {found.half_length, 0.0}) {
                 const Shape shape{found.centre, along, length, kind};
-                const double left = left_by(shape, field);
-                if (left < 0.97 * best.left) best = {shape, left};
+                const double most = 0.97 * best.left, left = left_by(shape, field, most);
+                if (left < most) best = {shape, left};
             }
     return best;
 }
@@ -239,7 +240,7 @@ void settle(Fit& fit, const Field& field) {
         for (int way = 0; way < (fit.shape.half_length > 0.0 ? 4 : 2); ++way)
             for (const double by : {-step, step}) {
                 const Shape other = moved(fit.shape, way, by);
-                if (const double left = left_by(other, field); left < fit.left) fit = {other, left};
+                if (const double left = left_by(other, field, fit.left); left < fit.left) fit = {other, left};
             }
         if (fit.left == before) step *= 0.5;
     }

@@ -71,8 +71,10 @@ class EndJoiner {
             std::size_t a, b;
         };
         std::vector<Pair> pairs;
+        SegmentBuckets buckets(lattice_);
+        for (std::uint32_t a = 0; a < ends.size(); ++a) buckets.add({ends[a].foot, ends[a].foot, a});
         for (std::size_t a = 0; a < ends.size(); ++a)
-            for (std::size_t b = a + 1; b < ends.size(); ++b) {
+            for (const std::size_t b : later_ends_near(a, ends[a], buckets)) {
                 const double cost = cost_of(ends[a], ends[b]);
                 if (cost < 1.0) pairs.push_back({cost, a, b});
             }
@@ -88,6 +90,21 @@ class EndJoiner {
     }
 
   private:
+    static constexpr double kMostWidths = 8.0, kWider = 1.3;  // of a gap; between the two lines
+
+    // Those behind `a` that cost_of may accept, in order.
+    std::vector<std::size_t> later_ends_near(std::size_t a, const EndLine& end, const SegmentBuckets& buckets) const {
+        const double widest = kWider * (chains_[end.chain].half_width + 0.5);
+        std::vector<std::size_t> near;
+        // A bucket more, since the last one of a row may be narrower.
+        buckets.near(end.foot, end.foot, kMostWidths * (widest + 1.0) + 16.0, [&](const Segment& s, Vec2) {
+            if (s.chain > a) near.push_back(s.chain);
+        });
+        std::sort(near.begin(), near.end());
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+        return near;
+    }
+
     // Below 1 when the two continue each other.
     double cost_of(const EndLine& a, const EndLine& b) const {
         if (a.chain == b.chain) return 2.0;
@@ -97,7 +114,7 @@ class EndJoiner {
         const double high = std::max(p.contrast, q.contrast), low = std::min(p.contrast, q.contrast);
         const Vec2 between = b.foot + lattice_.shift_to(b.foot, a.foot) - a.foot;
         const double gap = length(between);
-        if (gap > 8.0 * wide + 8.0 || wide + 0.5 > 1.3 * (narrow + 0.5) || high > 1.4 * low) return 2.0;
+        if (gap > kMostWidths * (wide + 1.0) || wide + 0.5 > kWider * (narrow + 0.5) || high > 1.4 * low) return 2.0;
         if (gap == 0.0 || dot(between, a.outward) < 0.0 || !is_shown(a, between)) return 2.0;
         return std::min(straight_cost(a, b, between, 0.25 * wide + 0.5 + 0.04 * gap), bent_cost(a, b, between));
     }
