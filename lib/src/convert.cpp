@@ -199,6 +199,12 @@ Result<Source> trace_source(const HeightMap& map, std::shared_ptr<const HeightMa
     return source;
 }
 
+int count_elements(const Pattern& pattern) {
+    std::size_t sum = 0;
+    for (const Path& path : pattern.paths) sum += path.elements.size();
+    return static_cast<int>(sum);
+}
+
 // Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
 // `most_elements`: as many as kept to it when the same map was traced in another way, or 0.
 Result<Candidate> fit_within(const Source& source, const ConvertOptions& options, std::size_t budget,
@@ -212,7 +218,13 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
         if (!clock.begin("vectorize")) return stopped();
         auto fitted = fit_traced_map(source.traced, source.detail(), vectorize, progress);
         if (!fitted) return fitted.error();
+        const int traced = count_elements(fitted->pattern);
         auto candidate = pack_candidate(std::move(*fitted), source.map, options, budget, clock);
+        // Where too many elements act at one place, fewer of them may still be stored.
+        if (!candidate && candidate.error().code == ErrorCode::limit_exceeded && attempt < most_attempts && traced > fewest) {
+            vectorize.most_elements = std::max(fewest, traced / 2);
+            continue;
+        }
         if (!candidate) return candidate.error();
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
         candidate->most_elements = vectorize.most_elements;
@@ -273,8 +285,10 @@ Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, st
 // A step of the refinement looks at the texels within reach of every element: wide profiles on long paths would take
 // long and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a
 // clock, so that the bytes do not depend on the machine.
-bool can_afford_refinement(const Pattern& pattern, const Image& map) {
-    constexpr double kMostTexels = 1e6;  // element lengths times profile widths: up to 7 seconds on two cores
+bool can_afford_refinement(const Pattern& pattern, const Image& map, double explained) {
+    // Element lengths times profile widths: up to 6 seconds on two cores where the paths are what the map is made of, half
+    // as long where much of it is something else.
+    constexpr double kMade = 0.9, kMostTexels = 1e6, kMostOfOthers = 3e5;
     const double texels = map.width / pattern.size.x;
     double work = 0.0;
     for (const Path& path : pattern.paths) {
@@ -282,14 +296,14 @@ bool can_afford_refinement(const Pattern& pattern, const Image& map) {
         const double reach = (points.back().b - points.front().b) * texels + 2.0;
         for (const Element& element : path.elements) work += curve::arc_length(element) * texels * reach;
     }
-    return work <= kMostTexels;
+    return work <= (explained >= kMade ? kMostTexels : kMostOfOthers);
 }
 
 Unrefined reason_not_to_refine(const Candidate& candidate, const HeightMap& map, const ConvertOptions& options) {
     if (!options.refine) return Unrefined::not_asked;
     if (candidate.traced.pattern.paths.empty()) return Unrefined::no_paths;
     if (!candidate.stats.path_like) return Unrefined::not_path_like;
-    return can_afford_refinement(candidate.traced.pattern, map.image) ? Unrefined::no : Unrefined::too_much_work;
+    return can_afford_refinement(candidate.traced.pattern, map.image, candidate.stats.explained) ? Unrefined::no : Unrefined::too_much_work;
 }
 
 // Whether curves were fitted more loosely than the map shows, or elements given up, for the sake of the budget: then the
