@@ -65,6 +65,60 @@ TEST(VectorizeStrokes, ArcsEndWhereTheyEnd) {
     EXPECT_LT(r.contour.rms, 0.02);
 }
 
+// The ground between strokes nearly as near as they are wide is no ridge.
+TEST(VectorizeStrokes, NearStrokesAreStrokes) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.5);
+    for (int i = 0; i < 4; ++i) {
+        const double width = random(3, 4.5), pitch = random(2.3, 3.0) * width, along = random(0, 6.28);
+        const Pen pen = map.pens().groove(width, kDepth);
+        for (int k = -1; k <= 1; ++k) {
+            const Vec2 c = map.field(i) + toward(along + degrees(90), k * pitch);
+            i % 2 ? map.draw(pen, bench::circle(map.field(i), 36.0 + k * pitch))
+                  : map.draw(pen, polyline({c - toward(along, 40), c + toward(along, 40)}));
+        }
+    }
+    const Recovered r = recovered_from(map.take());
+    report("near strokes", r);
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_EQ(r.contour.lost, 0.0);
+    EXPECT_LT(r.contour.rms, 0.03);
+}
+
+TEST(VectorizeStrokes, AcuteCornersStayOnePath) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.5);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28), angle = degrees(random(30, 80));
+        const Vec2 c = map.field(i) - toward(along + 0.5 * angle, 25);
+        map.draw(map.pens().groove(random(4, 7), kDepth), polyline({c + toward(along, 55), c, c + toward(along + angle, 55)}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("acute corners", r);
+    expect_found(r.structure.paths, "paths");
+    expect_found(nodes(r, NodeKind::corner), "corners");
+    EXPECT_LT(r.contour.rms, 0.02);
+}
+
+// A groove cuts a ridge, which goes on behind it: straight, or round as a ring.
+TEST(VectorizeStrokes, RidgesGoOnBehindGrooves) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.5, 0.5);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28);
+        const Vec2 c = map.field(i);
+        const Pen ridge = map.pens().ridge(random(5, 8), 0.3);
+        i % 2 ? map.draw(ridge, bench::circle(c, random(28, 42)))
+              : map.draw(ridge, polyline({c - toward(along, 46), c + toward(along, 46)}));
+        const Vec2 across = toward(along + degrees(90), 56);
+        map.draw(map.pens().groove(random(4, 6), 0.4), polyline({c - across, c + across}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("ridges behind grooves", r);
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_EQ(r.contour.lost, 0.0);
+}
+
 // Edge points read off such walls are off by up to 0.06 texel.
 TEST(VectorizeStrokes, AxisAlignedWallsSharperThanATexel) {
     Uniform random(seed_of_run());
