@@ -313,6 +313,24 @@ bool is_short_of_bytes(const Candidate& candidate) {
     return candidate.most_elements > 0 || candidate.traced.tolerance > kUsualTolerance;
 }
 
+// Takes out elements of hardly a texel: where a crossing left a kink, the refinement may fold it, and what lies in the
+// outer sector of a fold reaches far.
+Pattern without_folds(Pattern pattern, double texel) {
+    constexpr double kShortest = 1.5;  // texels
+    for (Path& path : pattern.paths) {
+        std::vector<Element>& elements = path.elements;
+        for (std::size_t i = 1; i + 1 < elements.size();) {
+            if (length(elements[i].p2 - elements[i].p0) >= kShortest * texel) {
+                ++i;
+                continue;
+            }
+            elements[i + 1].p0 = elements[i].p0;
+            elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+    }
+    return pattern;
+}
+
 // Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
 Result<Candidate> refine_candidate(Candidate candidate, const Source& source, const ConvertOptions& options,
                                    std::size_t budget, StageClock& clock) {
@@ -326,7 +344,13 @@ Result<Candidate> refine_candidate(Candidate candidate, const Source& source, co
     if (is_short_of_bytes(candidate)) refinement.elements = false;
     Vectorized refined = candidate.traced;
     if (!refine_pattern(refined.pattern, source.detail().image, refinement)) return candidate;
+    Vectorized unfolded = refined;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
+    if (!better || better->stats.explained < candidate.stats.explained) {
+        const double texel = unfolded.pattern.size.x / map.image.width;
+        unfolded.pattern = without_folds(std::move(unfolded.pattern), texel);
+        better = pack_and_measure(std::move(unfolded), map, options, budget, clock);
+    }
     if (!better || better->stats.explained < candidate.stats.explained) return candidate;
     if (options.max_texture_bytes > 0 && better->bytes() > budget) return candidate;
     return better;
