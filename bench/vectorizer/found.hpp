@@ -10,11 +10,6 @@
 
 namespace burin::bench {
 
-enum class Damage { sixteen_bit, eight_bit, jpeg };  // JPEG: quality 85
-
-// The map written to a file in `folder` and read again. Exits with a message when that fails.
-HeightMap damaged(const Image& map, Damage damage, const std::string& folder);
-
 struct Found {
     Pattern pattern;
     ResolvedPattern stored;         // read back from the textures

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contour.hpp"
+#include "damage.hpp"
 #include "found.hpp"
 #include "structure.hpp"
 

@@ -26,9 +26,6 @@ void add_clouds(Image& map, double amplitude, double period, Uniform& random);
 // Adds normal noise of this standard deviation to every texel, cut off likewise.
 void add_grain(Image& map, double deviation, Uniform& random);
 
-// Rounds the cosine coefficients of blocks of 8 x 8 texels as a JPEG of quality 85 does (ITU-T T.81, annexes A and K).
-void ring_in_blocks(Image& map);
-
 // 36 levels: 219 to 255 of 255.
 void keep_few_levels(Image& map);
 

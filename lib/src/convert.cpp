@@ -309,7 +309,6 @@ Unrefined reason_not_to_refine(const Candidate& candidate, const HeightMap& map,
 // Whether curves were fitted more loosely than the map shows, or elements given up, for the sake of the budget: then the
 // refinement has none to add.
 bool is_short_of_bytes(const Candidate& candidate) {
-    constexpr double kUsualTolerance = 0.3;  // texels
     return candidate.most_elements > 0 || candidate.traced.tolerance > kUsualTolerance;
 }
 

@@ -137,7 +137,7 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
     double share = kLeastRegionShare;
     const double asked = options.most_elements > 0 ? 1.7 : 1.0;  // a limit that was asked for goes before beauty
     const double loosest = asked * std::max(1.2, 0.0012 * std::min(lattice.width, lattice.height));
-    result.tolerance = options.tolerance > 0.0 ? options.tolerance : 0.3;
+    result.tolerance = options.tolerance > 0.0 ? options.tolerance : kUsualTolerance;
     // Polylines are fast and tell how many elements to expect; the curves, which need fewer, are fitted once at the end.
     const std::size_t most = budget * 5 / 4;
     std::size_t lines = foretell_elements(traced.lines, result.tolerance), steps = foretell_elements(traced.steps, result.tolerance);
@@ -220,7 +220,7 @@ Path make_path(const FittedChain& fitted, const Units& units, const Regions& reg
     std::uint32_t region = fitted.chain.left_region;
     if (fitted.chain.kind != ChainKind::step) {
         const Vec2 p = fitted.chain.points[fitted.chain.points.size() / 2];
-        region = regions.at(lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))));
+        region = regions.at(lattice.nearest(p));
     }
     path.level = units.level(regions.level[region]);
     return path;

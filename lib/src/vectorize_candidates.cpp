@@ -85,7 +85,7 @@ struct Surroundings {
 
 // Whether another line lies `offset` texels beside a chain: another chain, or another turn of the same.
 bool is_beside(double half_width, std::int32_t self, const Surroundings& around, Vec2 p, double offset) {
-    const auto owner = around.owner[around.lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))];
+    const auto owner = around.owner[around.lattice.nearest(p)];
     return owner != kNobody && (owner != self || std::fabs(offset) > half_width + 2.5);
 }
 
@@ -105,13 +105,7 @@ Reach free_reach(const Chain& chain, std::int32_t self, const Surroundings& arou
             free[side].push_back(std::min(reach, furthest));
         }
     });
-    const auto median = [](std::vector<double>& values) {
-        if (values.empty()) return 0.0;
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        return *middle;
-    };
-    return {median(free[0]), median(free[1])};
+    return {median(std::move(free[0])), median(std::move(free[1]))};
 }
 
 // One row per place along the chain, offsets by steps of half a texel, or in proportion where the line is narrower or wider
@@ -301,22 +295,29 @@ double widest_of(const Chain& chain) {
     return chain.half_widths.empty() ? chain.half_width : *std::max_element(chain.half_widths.begin(), chain.half_widths.end());
 }
 
+struct Kept {
+    std::vector<Chain> lines;
+    bool is_whole = false;  // the chain is a line, whether this scale takes it or a wider one will
+};
+
 // A chain that is a line; of one that is not, the parts before and behind its greatest change that are.
-std::vector<Chain> keep_lines(const Chain& whole, std::int32_t self, const Surroundings& around, double least_energy,
-                              const LineScale& scale) {
+Kept keep_parts(const Chain& whole, std::int32_t self, const Surroundings& around, double least_energy,
+                const LineScale& scale) {
     struct Part {
         Chain chain;
         int splits = 0;
     };
-    std::vector<Chain> kept;
+    Kept kept;
     std::vector<Part> stack{{whole, 0}};
     while (!stack.empty()) {
         auto [chain, splits] = std::move(stack.back());
         stack.pop_back();
         if (chain_energy(chain) < least_energy) continue;
-        if (is_supported(chain, around) && is_line(chain, self, around) &&
-            (scale.radius == scale.widest || (widest_of(chain) <= 0.6 * scale.radius && stands_alone(chain, self, around)))) {
-            kept.push_back(std::move(chain));
+        const bool is_one = is_supported(chain, around) && is_line(chain, self, around);
+        if (splits == 0) kept.is_whole = is_one;
+        if (is_one && (scale.radius == scale.widest ||
+                       (widest_of(chain) <= 0.6 * scale.radius && stands_alone(chain, self, around)))) {
+            kept.lines.push_back(std::move(chain));
             continue;
         }
         const bool splits_well = splits < 3 && !chain.closed && chain.points.size() >= 24 && chain.half_width <= kBroad &&
@@ -337,7 +338,7 @@ std::vector<Chain> keep_lines(const Chain& whole, std::int32_t self, const Surro
 // The part of the mask that a chain lies in.
 std::int64_t part_of(const Chain& chain, const std::vector<std::uint8_t>& mask, const Parts& parts, const Lattice& lattice) {
     for (const Vec2 p : chain.points) {
-        const int texel = lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
+        const int texel = lattice.nearest(p);
         if (mask[texel]) return parts.runs[parts.find(texel % lattice.width, texel / lattice.width)].part;
     }
     return -1;
@@ -354,7 +355,7 @@ void wait_with_others(const std::vector<Chain>& chains, const std::vector<std::i
         energy[shape[c]].first += chain_energy(chains[c]);
         if (waits[c]) energy[shape[c]].second += chain_energy(chains[c]);
         const auto add = [&](Vec2 p) {
-            at_node[lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))].push_back(c);
+            at_node[lattice.nearest(p)].push_back(c);
         };
         if (chains[c].start_tie == EndTie::node) add(chains[c].points.front());
         if (chains[c].end_tie == EndTie::node) add(chains[c].points.back());
@@ -379,20 +380,18 @@ std::vector<Chain> keep_lines(const std::vector<Chain>& chains, const std::vecto
                               const LineScale& scale) {
     const std::vector<std::int32_t> owner = claim_texels(chains, lattice);
     const Surroundings around{map, lattice, owner, noise};
-    std::vector<std::vector<Chain>> kept_of(chains.size());
+    std::vector<Kept> kept_of(chains.size());
     std::vector<std::int64_t> shape(chains.size());
     std::vector<std::uint8_t> waits(chains.size(), 0);
-    const bool is_widest = scale.radius == scale.widest;
     for_each_piece(chains.size(), lattice.threads, [&](std::size_t c) {
-        kept_of[c] = keep_lines(chains[c], static_cast<std::int32_t>(c), around, least_energy, scale);
+        kept_of[c] = keep_parts(chains[c], static_cast<std::int32_t>(c), around, least_energy, scale);
         shape[c] = part_of(chains[c], mask, shapes, lattice);
-        waits[c] = !is_widest && kept_of[c].empty() && chain_energy(chains[c]) >= least_energy &&
-                   is_supported(chains[c], around) && is_line(chains[c], static_cast<std::int32_t>(c), around);
+        waits[c] = scale.radius < scale.widest && kept_of[c].lines.empty() && kept_of[c].is_whole;
     });
     wait_with_others(chains, shape, lattice, waits);
     std::vector<Chain> kept;
     for (std::size_t c = 0; c < chains.size(); ++c)
-        if (!waits[c]) std::move(kept_of[c].begin(), kept_of[c].end(), std::back_inserter(kept));
+        if (!waits[c]) std::move(kept_of[c].lines.begin(), kept_of[c].lines.end(), std::back_inserter(kept));
     return kept;
 }
 

@@ -39,6 +39,8 @@ struct Lattice {
         y = y < 0 ? 0 : y >= height ? height - 1 : y;
         return y * width + x;
     }
+    // Index of the texel that p lies in, or the nearest.
+    int nearest(Vec2 p) const { return nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))); }
     int size() const { return width * height; }
     // The shift by whole tiles that brings p nearest to `target`.
     Vec2 shift_to(Vec2 p, Vec2 target) const {
@@ -63,6 +65,14 @@ inline float sample(const Image& image, const Lattice& lattice, Vec2 p) {
     const float d = t[inside ? i + lattice.width + 1 : lattice.nearest(x0 + 1, y0 + 1)];
     const float top = a + (b - a) * fx, bottom = c + (d - c) * fx;
     return top + (bottom - top) * fy;
+}
+
+// The upper one of two middle values; 0 of none.
+inline double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 enum class ChainKind : std::uint8_t { groove, ridge, step };

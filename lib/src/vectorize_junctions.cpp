@@ -200,15 +200,24 @@ Graph make_graph(const Skeleton& skeleton, const Lattice& lattice) {
     return graph;
 }
 
+using Touching = std::vector<std::vector<std::pair<int, int>>>;  // per node: strand, end
+
+Touching strands_at_nodes(const Skeleton& skeleton) {
+    Touching touching(skeleton.nodes.size());
+    for (std::size_t s = 0; s < skeleton.strands.size(); ++s) {
+        const Strand& strand = skeleton.strands[s];
+        for (int end = 0; end < 2 && !strand.gone && !strand.loop; ++end)
+            if (strand.node[end] >= 0) touching[strand.node[end]].push_back({static_cast<int>(s), end});
+    }
+    return touching;
+}
+
 // Lines that cross at a small angle run as one for a while: two forks with a common stem. Where each prong of the one
 // continues a prong of the other, the stem goes, and the forks become one node.
 void contract_stems(Skeleton& skeleton, const Lattice& lattice) {
     constexpr double kLongestStem = 14.0;  // in radii of the node
     constexpr double kMostCost = 0.6;      // less than where lines cross openly: K and X have stems too
-    std::vector<std::vector<std::pair<int, int>>> touching(skeleton.nodes.size());  // strand, end
-    for (std::size_t s = 0; s < skeleton.strands.size(); ++s)
-        for (int end = 0; end < 2 && !skeleton.strands[s].gone && !skeleton.strands[s].loop; ++end)
-            if (skeleton.strands[s].node[end] >= 0) touching[skeleton.strands[s].node[end]].push_back({static_cast<int>(s), end});
+    Touching touching = strands_at_nodes(skeleton);
     for (std::size_t s = 0; s < skeleton.strands.size(); ++s) {
         Strand& stem = skeleton.strands[s];
         const int a = stem.node[0], b = stem.node[1];
@@ -239,10 +248,7 @@ void contract_stems(Skeleton& skeleton, const Lattice& lattice) {
 void drop_tips(Skeleton& skeleton, const Lattice& lattice) {
     // Radians between the lines; at less, the tip may well be one of them that goes on.
     constexpr double kLeastAngle = 0.35, kWidestAngle = 1.4;
-    std::vector<std::vector<std::pair<int, int>>> touching(skeleton.nodes.size());  // strand, end
-    for (std::size_t s = 0; s < skeleton.strands.size(); ++s)
-        for (int end = 0; end < 2 && !skeleton.strands[s].gone && !skeleton.strands[s].loop; ++end)
-            if (skeleton.strands[s].node[end] >= 0) touching[skeleton.strands[s].node[end]].push_back({static_cast<int>(s), end});
+    const Touching touching = strands_at_nodes(skeleton);
     for (std::size_t n = 0; n < touching.size(); ++n) {
         if (touching[n].size() != 3) continue;
         const SkeletonNode& node = skeleton.nodes[n];

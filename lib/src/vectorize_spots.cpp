@@ -321,9 +321,6 @@ void drop_crumbs(std::vector<Chain>& spots, const std::vector<Chain>& lines, con
     constexpr double kCrumb = 1.2, kBeside = 2.5;  // half width; beyond a line's wall, texels
     const auto is_crumb = [](const Chain& spot) { return spot.half_width < kCrumb; };
     if (std::none_of(spots.begin(), spots.end(), is_crumb)) return;
-    const auto cell_of = [&](Vec2 p) {
-        return lattice.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
-    };
     std::unordered_multimap<int, std::pair<Vec2, double>> near;  // by texel: points of lines, and how far they reach
     double furthest = 0.0;
     for (const Chain& line : lines) {
@@ -334,7 +331,7 @@ void drop_crumbs(std::vector<Chain>& spots, const std::vector<Chain>& lines, con
             const int pieces = std::max(1, static_cast<int>(std::lround(length(b - a))));
             for (int piece = 0; piece < pieces; ++piece) {
                 const Vec2 p = lerp(a, b, (piece + 0.5) / pieces);
-                near.emplace(cell_of(p), std::pair{p, reach});
+                near.emplace(lattice.nearest(p), std::pair{p, reach});
             }
         }
     }
@@ -343,7 +340,7 @@ void drop_crumbs(std::vector<Chain>& spots, const std::vector<Chain>& lines, con
         const int reach = is_crumb(spot) ? static_cast<int>(std::ceil(furthest)) : -1;
         for (int dy = -reach; dy <= reach; ++dy)
             for (int dx = -reach; dx <= reach; ++dx) {
-                const auto [first, last] = near.equal_range(cell_of(middle + Vec2{double(dx), double(dy)}));
+                const auto [first, last] = near.equal_range(lattice.nearest(middle + Vec2{double(dx), double(dy)}));
                 for (auto at = first; at != last; ++at) {
                     const Vec2 p = at->second.first + lattice.shift_to(at->second.first, middle);
                     if (length(p - middle) < at->second.second) return true;

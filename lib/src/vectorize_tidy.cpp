@@ -128,7 +128,7 @@ class EndJoiner {
     // An arc that another line hides in the middle turns on both sides of it by the same angle.
     double bent_cost(const EndLine& a, const EndLine& b, Vec2 between) const {
         constexpr double kMostTurn = 1.2, kMostDifference = 0.15;  // radians
-        if (!hidden_[texel_at(a.foot + between * 0.5)]) return 2.0;
+        if (!hidden_[lattice_.nearest(a.foot + between * 0.5)]) return 2.0;
         const auto angle = [](Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); };
         const double first = angle(a.outward, between), second = angle(between, -b.outward);
         const double difference = std::fabs(first - second);
@@ -136,15 +136,11 @@ class EndJoiner {
         return 0.5 + 0.5 * difference / kMostDifference;
     }
 
-    int texel_at(Vec2 p) const {
-        return lattice_.nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)));
-    }
-
     bool is_shown(const EndLine& a, Vec2 between) const {
         const int steps = static_cast<int>(std::ceil(2.0 * length(between)));
         for (int k = 0; k <= steps; ++k) {
             const Vec2 p = a.foot + between * (double(k) / std::max(1, steps));
-            if (!hidden_[texel_at(p)] && sample(response_, lattice_, p) < 0.5 * chains_[a.chain].contrast) return false;
+            if (!hidden_[lattice_.nearest(p)] && sample(response_, lattice_, p) < 0.5 * chains_[a.chain].contrast) return false;
         }
         return true;
     }

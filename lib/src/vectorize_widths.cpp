@@ -53,13 +53,6 @@ Section measure_section(const Image& response, const Lattice& lattice, Vec2 p, V
     return section;
 }
 
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 // Values along a line.
 struct Track {
     std::vector<double> place, value;  // places rise

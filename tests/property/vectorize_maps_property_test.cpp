@@ -8,6 +8,8 @@
 #include <burin/convert.hpp>
 #include <burin/resolve.hpp>
 
+#include "../../bench/vectorizer/damage.hpp"
+#include "../unit/temporary_folder.hpp"
 #include "drawn_map.hpp"
 
 namespace burin::testing {
@@ -66,9 +68,9 @@ TEST(VectorizeMaps, RingingIsNoPlateau) {
         map.draw(map.pens().groove(random(4, 8), kDepth), polyline({c - toward(along, 48), c, c + toward(along + random(-0.9, 0.9), 48)}));
     }
     const Pattern drawing = map.take();
-    Image image = bench::map_of(drawing, kTexels, 16);
-    bench::ring_in_blocks(image);
-    const Recovered r = recovered_from(image, drawing);
+    const test::TemporaryFolder folder;
+    const HeightMap map_read = bench::damaged(bench::map_of(drawing, kTexels, 16), bench::Damage::jpeg, folder.path());
+    const Recovered r = recovered_from(map_read.image, drawing);
     report("JPEG 85", r);
     EXPECT_EQ(r.structure.paths.recovered, r.structure.paths.authored);
     EXPECT_EQ(r.contour.lost, 0.0);

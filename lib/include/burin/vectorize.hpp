@@ -31,6 +31,9 @@ using Progress = std::function<bool(std::string_view stage, double fraction)>;
 // Largest map that is vectorized, in texels: 8192 x 8192. Larger ones are refused, since they would take minutes.
 inline constexpr std::size_t kMaxVectorizedTexels = std::size_t{8192} * 8192;
 
+// Of curves, where neither grain nor a byte budget asks for a looser one; texels.
+inline constexpr double kUsualTolerance = 0.3;
+
 enum class WrapChoice : std::uint8_t { automatic, repeat, clamp };  // automatic: repeat when opposite borders match
 
 struct VectorizeOptions {
