@@ -22,7 +22,9 @@ Pattern vectorized(const Image& map, const Pattern& like, bool refined) {
     }
     Pattern pattern = std::move(traced->pattern);
     if (!refined) return pattern;
-    const Result<RefineReport> report = refine_pattern(pattern, map);
+    RefineOptions refinement;
+    refinement.damage = traced->damage;
+    const Result<RefineReport> report = refine_pattern(pattern, map, refinement);
     if (!report) {
         std::fprintf(stderr, "resolution: %s\n", report.error().message.c_str());
         std::exit(3);

@@ -340,6 +340,7 @@ Result<Candidate> refine_candidate(Candidate candidate, const Source& source, co
     candidate.stats.unrefined = Unrefined::no_gain;
     RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
+    refinement.damage = candidate.traced.damage;
     if (is_short_of_bytes(candidate)) refinement.elements = false;
     Vectorized refined = candidate.traced;
     if (!refine_pattern(refined.pattern, source.detail().image, refinement)) return candidate;

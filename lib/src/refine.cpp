@@ -14,6 +14,7 @@
 #include "refine_forward.hpp"
 #include "refine_parameters.hpp"
 #include "refine_sampling.hpp"
+#include "refine_sections.hpp"
 #include "refine_simplify.hpp"
 #include "refine_solve.hpp"
 
@@ -26,12 +27,17 @@ constexpr double kLeastDeviation = 1e-5;    // map scale: rounding of a 16-bit m
 constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
+constexpr double kStraighterMayDiffer[] = {0.03, 0.01};  // of a profile's relief, root mean square
+constexpr double kSurelyDamage = 2.0, kNearDamage = 9.0;  // of the misfit that the map's damage alone makes
+constexpr double kDamageMayCost = 1.5;                    // of a misfit near that
+constexpr double kCoarsest = 1.0 / 255.0;   // map scale: rounding of maps that have few values
 constexpr double kRoughThreshold = 0.05;    // Huber's, before anything is fitted
 constexpr double kTidyMayCost = 1.05;        // of the misfit, before ends are settled
 constexpr int kSettleRounds = 4;
 constexpr int kSplitRounds = 2;
 constexpr double kSplitMustGain = 0.95;      // of the misfit
 constexpr double kStrain = 0.02;             // texels, root mean square: an arc that is farther off is split
+constexpr double kStrainInDeviations = 1.6;  // of what the map's noise alone makes of it
 constexpr double kShortestSplit = 6.0;       // texels
 constexpr double kTorn = 0.1;                // map scale
 // A texel's model is as exact as this share of what it is off by, not more: doubt about a part of it is then cheap.
@@ -86,6 +92,18 @@ double deviation_of(const std::vector<Residual>& residuals, bool on_walls = true
     return std::max(kLeastDeviation, 1.4826 * *middle);
 }
 
+// What the steps that a map's heights come in are off by, root mean square.
+double rounding_of(const Image& map) {
+    constexpr std::size_t kLooks = 1 << 16;
+    std::vector<float> heights;
+    for (std::size_t i = 0; i < map.texels.size(); i += map.texels.size() / kLooks + 1) heights.push_back(map.texels[i]);
+    std::sort(heights.begin(), heights.end());
+    double finest = kCoarsest;
+    for (std::size_t i = 1; i < heights.size(); ++i)
+        if (const double gap = double(heights[i]) - heights[i - 1]; gap > 1e-6) finest = std::min(finest, gap);
+    return finest / std::sqrt(12.0);
+}
+
 // Huber's.
 double threshold_of(double deviation) { return std::max(kLeastThreshold, kThresholdInDeviations * deviation); }
 
@@ -134,7 +152,10 @@ double cost_of(const State& state, double deviation) {
 class Refinement {
   public:
     Refinement(const Image& map, Vec2 side, const RefineOptions& options)
-        : map_(map), side_(side), options_(options), sparse_(sample_map(map, true)), dense_(sample_map(map, false)) {}
+        : map_(map), side_(side), options_(options), sparse_(sample_map(map, true)), dense_(sample_map(map, false)),
+          damage_(std::max(options.damage, rounding_of(map))) {}
+
+    double damage() const { return damage_; }
 
     // The model's map alone.
     Result<Prediction> look(const Pattern& pattern, const Model& model) const {
@@ -329,10 +350,11 @@ class Refinement {
     const Vec2 side_;
     const RefineOptions& options_;
     const Sampling sparse_, dense_;
+    const double damage_;  // map scale
 };
 
 // What would be indexed or divided by blindly. The rest is for `resolve_pattern` to leave out.
-std::optional<Error> damage_of(const Pattern& pattern) {
+std::optional<Error> fault_of_paths(const Pattern& pattern) {
     for (std::size_t p = 0; p < pattern.paths.size(); ++p) {
         const Path& path = pattern.paths[p];
         const auto damage = [&](const char* what) {
@@ -356,7 +378,8 @@ std::optional<Error> fault_of(const Pattern& pattern, const Image& map, const Re
     if (!(options.max_shift_texels > 0.0)) return fault("max_shift_texels must be above 0");
     if (!(options.snap >= 0.0 && options.snap <= 0.01)) return fault("snap must lie in [0, 0.01]");
     if (!(options.narrow_texels >= 0.0)) return fault("narrow_texels must not be negative");
-    return damage_of(pattern);
+    if (!(options.damage >= 0.0)) return fault("damage must not be negative");
+    return fault_of_paths(pattern);
 }
 
 // Quadratics that leave the map by more than its noise accounts for: too few for the arc they follow.
@@ -382,7 +405,7 @@ std::vector<ElementIndex> strained_quadratics(const State& state) {
         const Element& e = state.pattern.paths[index.first].elements[index.second];
         if (e.kind != ElementKind::quadratic || length(e.p2 - e.p0) < kShortestSplit || sum.count < 10.0) continue;
         const double off = std::sqrt(sum.squares / sum.slopes);
-        if (off > std::max(kStrain, 3.0 * noise * std::sqrt(sum.count / sum.slopes)))
+        if (off > std::max(kStrain, kStrainInDeviations * noise * std::sqrt(sum.count / sum.slopes)))
             strained.push_back({index.first, index.second});
     }
     return strained;
@@ -408,6 +431,49 @@ void keep_simpler(const Refinement& refinement, const Model& model, State& best,
     if (simplify_profiles(simpler)) keep_better(refinement, model, simpler, kSimplerMayCost, best, report);
 }
 
+// What the paths of a profile are off by around them.
+struct ProfileMisfit {
+    double cost = 0.0;
+    double damage = 0.0;  // what the map's own damage alone would cost
+
+    // Whether a plainer profile may cost as much: what follows the damage is no part of the surface.
+    bool allows(double other) const {
+        const bool is_damage = cost < kNearDamage * damage;
+        return other <= std::max((is_damage ? kDamageMayCost : kSimplerMayCost) * cost, kSurelyDamage * damage);
+    }
+};
+
+std::vector<ProfileMisfit> misfit_by_profile(const State& state, double threshold, double damage) {
+    std::vector<ProfileMisfit> misfits(state.pattern.profiles.size());
+    for (const Residual& r : state.prediction.residuals) {
+        if (!r.steep()) continue;
+        const int path = state.elements[static_cast<std::size_t>(r.element)].path;
+        if (path < 0) continue;
+        ProfileMisfit& misfit = misfits[state.pattern.paths[static_cast<std::size_t>(path)].profile];
+        misfit.cost += robust_cost(r, threshold);
+        misfit.damage += 0.5 * r.weight * damage * damage;
+    }
+    return misfits;
+}
+
+// With straighter profiles, each where the map hardly shows the difference.
+void keep_straighter(const Refinement& refinement, const Model& model, double share, State& best, RefineReport& report) {
+    Pattern straighter = best.pattern;
+    if (!straighten_sections(straighter, share)) return;
+    Result<State> trial = refinement.run(straighter, model, report);
+    if (!trial) return;
+    const double threshold = threshold_of(deviation_of(best.prediction.residuals));
+    const std::vector<ProfileMisfit> before = misfit_by_profile(best, threshold, refinement.damage());
+    const std::vector<ProfileMisfit> after = misfit_by_profile(*trial, threshold, refinement.damage());
+    Pattern mixed = trial->pattern;
+    for (std::size_t i = 0; i < mixed.profiles.size(); ++i)
+        if (!before[i].allows(after[i].cost)) mixed.profiles[i] = best.pattern.profiles[i];
+    for (std::size_t i = 0; i < mixed.paths.size(); ++i)
+        if (const std::size_t profile = mixed.paths[i].profile; !before[profile].allows(after[profile].cost))
+            mixed.paths[i] = best.pattern.paths[i];
+    keep_better(refinement, model, mixed, kDamageMayCost, best, report);
+}
+
 // First with the profiles as they came, symmetric ones made so; then simpler ones, and more elements where they are too few.
 Result<State> refine_roughly(const Refinement& refinement, const Pattern& start, const RefineOptions& options,
                              RefineReport& report) {
@@ -420,7 +486,10 @@ Result<State> refine_roughly(const Refinement& refinement, const Pattern& start,
     if (options.ends) seen = refinement.with_settled_ends(std::move(seen));
     Result<State> best = refinement.run(seen.pattern, kRough, report);
     if (!best) return best;
-    if (options.profiles) keep_simpler(refinement, kRough, *best, report);
+    if (options.profiles) {
+        keep_simpler(refinement, kRough, *best, report);
+        for (const double share : kStraighterMayDiffer) keep_straighter(refinement, kRough, share, *best, report);
+    }
     for (int round = 0; round < kSplitRounds && options.positions && options.elements; ++round) {
         const std::vector<ElementIndex> strained = strained_quadratics(*best);
         if (strained.empty()) break;

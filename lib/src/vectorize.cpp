@@ -347,6 +347,7 @@ Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, 
     const Lattice& lattice = traced.lattice;
     Vectorized result;
     result.noise = traced.noise;
+    result.damage = traced.damage;
     result.energy = traced.energy;
     const std::size_t budget = element_budget(lattice, options);
     std::vector<FittedChain> fitted = fit_within(traced, map.image, options, budget, regions, result, thread_count(options.threads));

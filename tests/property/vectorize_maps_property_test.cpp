@@ -77,6 +77,43 @@ TEST(VectorizeMaps, RingingIsNoPlateau) {
     EXPECT_LT(r.contour.rms, 0.06);
 }
 
+// Straight walls of upright strokes: rounding and ringing are the same all along them, so that no mean takes them away, and
+// a profile with points to spare follows them.
+Pattern upright_strokes(Uniform& random) {
+    DrawnMap map(2.0);
+    for (int i = 0; i < 4; ++i) {
+        const double width = random(4, 10), depth = random(0.3, 0.5), at = 22.0 + 42.0 * i + random(0, 5), end = random(120, 230);
+        map.draw(map.pens().groove(width, depth), polyline({{at, 20.0}, {at, end}}));
+    }
+    return map.take();
+}
+
+Pattern round_strokes(Uniform& random) {
+    DrawnMap map(2.0);
+    for (int i = 0; i < 4; ++i) {
+        const double from = random(0, 6.28);
+        map.draw(map.pens().groove(random(4, 8), kDepth), bench::arc(map.field(i), random(16, 44), from, from + random(2, 5)));
+    }
+    return map.take();
+}
+
+void expect_walls_stand(const Pattern& drawing, bench::Damage damage, const char* what, double rms) {
+    const test::TemporaryFolder folder;
+    const HeightMap map = bench::damaged(bench::map_of(drawing, kTexels, 16), damage, folder.path());
+    const Recovered r = recovered_from(map.image, drawing);
+    report(what, r);
+    expect_found(r, rms);
+}
+
+TEST(VectorizeMaps, DamageMovesNoWalls) {
+    Uniform random(seed_of_run());
+    const Pattern upright = upright_strokes(random), bent = round_strokes(random);
+    expect_walls_stand(upright, bench::Damage::eight_bit, "upright, 8 bits", 0.02);
+    expect_walls_stand(upright, bench::Damage::jpeg, "upright, JPEG 85", 0.06);
+    expect_walls_stand(bent, bench::Damage::eight_bit, "bent, 8 bits", 0.03);
+    expect_walls_stand(bent, bench::Damage::jpeg, "bent, JPEG 85", 0.03);
+}
+
 // A vignette around a groove is shape, and no part of its profile.
 TEST(VectorizeMaps, ShadingAroundGroovesIsNoGroove) {
     Uniform random(seed_of_run());

@@ -36,6 +36,9 @@ struct RefineOptions {
     // A groove narrower than this (area over depth) shows the map little but its cross-section's area: its offsets keep
     // their proportions, and its depth keeps near what it was unless crossings and ends tell better. Texels, >= 0.
     double narrow_texels = 1.25;
+    // What was done to the heights since the surface was sampled (grain, JPEG), root mean square, map scale; >= 0. Points of
+    // profiles that follow nothing greater go. What the heights are rounded to is found by itself.
+    double damage = 0.0;
     int threads = 0;                  // 0: as many as the machine has. The result does not depend on it.
 };
 

@@ -54,6 +54,7 @@ struct VectorizeOptions {
 struct Vectorized {
     Pattern pattern;
     double noise = 0.0;               // standard deviation of the grain, of the map's range
+    double damage = 0.0;              // the grain, or what JPEG left beside walls, whichever is greater; of the range
     double energy = 0.0;              // the map's detail: variance of HP(map) (DESIGN 7) times its texels
     double tolerance = 0.0;           // used for fitting, texels
     double path_length_texels = 0.0;  // of all paths together
