@@ -66,14 +66,16 @@ bool is_bend(const Element& before, const Element& after, const Chain& chain, co
     return std::fabs(sample(map, lattice, rim) - beside) < 0.5 * std::fabs(line - beside);
 }
 
-// Whether every control point stays near the points that the curve was fitted to; that of a round bend lies outside of
+// Whether every control point stays near the points of the chain that the curve was fitted to; that of a round bend lies outside of
 // their box by up to half the bend's chord.
-bool stays_near(const std::vector<Vec2>& points, const std::vector<Element>& elements, double slack) {
+bool stays_near(const Chain& chain, const std::vector<Element>& elements, double slack) {
     Box box;
-    for (const Vec2 p : points) {
+    const auto cover = [&](Vec2 p) {
         box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
         box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-    }
+    };
+    // A curve that closes round the tile may start anywhere.
+    for (const Vec2 p : chain.points) cover(p), cover(p + chain.winding);
     const auto inside = [&](Vec2 p, double far) {
         return p.x >= box.low.x - far && p.x <= box.high.x + far && p.y >= box.low.y - far && p.y <= box.high.y + far;
     };
@@ -187,7 +189,7 @@ std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, const Imag
         if (!fit) return;  // all points coincide: nothing to draw
         fitted[c].chain = chains[c];
         const bool sound = fit->max_error < 3.0 * tolerance + 0.5 &&
-                           stays_near(chains[c].points, fit->elements, 2.0 + 2.0 * chains[c].half_width);
+                           stays_near(chains[c], fit->elements, 2.0 + 2.0 * chains[c].half_width);
         // Along a ragged rim a smooth chain needs more elements than corners do, and shows no more.
         const std::vector<Element> polyline = fit_polyline(chains[c], tolerance);
         const bool smooth = sound && 3 * texels_of(fit->elements) <= 4 * texels_of(polyline);
