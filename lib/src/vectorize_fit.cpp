@@ -75,7 +75,8 @@ bool stays_near(const Chain& chain, const std::vector<Element>& elements, double
         box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
     };
     // A curve that closes round the tile may start anywhere.
-    for (const Vec2 p : chain.points) cover(p), cover(p + chain.winding);
+    for (const Vec2 p : chain.points)
+        for (const double times : {0.0, 1.0, 2.0}) cover(p + chain.winding * times);
     const auto inside = [&](Vec2 p, double far) {
         return p.x >= box.low.x - far && p.x <= box.high.x + far && p.y >= box.low.y - far && p.y <= box.high.y + far;
     };
