@@ -117,6 +117,7 @@ void add_method(Report& report, const ConvertStats& stats) {
     const bool refined = stats.unrefined == Unrefined::no;
     report.add({"refined", "", refined, ""});
     if (!refined) report.add({"refined_because", "", std::string(reason_of(stats.unrefined).name), ""});
+    report.add({"halvings", "", std::int64_t{stats.halvings}, ""});
     report.add({"noise", "", stats.noise, ""});
     report.add({"tolerance_texels", "", stats.tolerance, ""});
     report.add({"dropped_paths", "", std::int64_t{stats.dropped_paths}, ""});

@@ -83,9 +83,12 @@ Result<Image> reconstruct(const HeightMap& map, const PackedTextures& textures, 
     return heights;
 }
 
+// Of a map that shows as much in fewer texels, a texel tells as much from fewer samples.
+int samples_for(const ConvertStats& stats, int usual) { return std::max(std::min(usual, 2), usual >> stats.halvings); }
+
 Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
                ConvertStats& stats) {
-    const auto heights = reconstruct(map, textures, detail, {.threads = threads});
+    const auto heights = reconstruct(map, textures, detail, {.samples = samples_for(stats, ReconstructOptions{}.samples), .threads = threads});
     if (!heights) return heights.error();
     const Comparison figures = compare_heights(*heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp, threads);
     stats.explained = figures.explained;
@@ -444,16 +447,43 @@ Result<Candidate> closer_within(const Source& source, ConvertOptions options, Ca
     return best;
 }
 
-Result<Candidate> within_bounds(const HeightMap& map, const ConvertOptions& options, const Progress& progress,
-                                StageClock& clock) {
+Result<Candidate> within_bounds(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                                const Progress& progress, StageClock& clock) {
     const bool bytes_bound = options.max_texture_bytes > 0;
-    const std::size_t budget = bytes_bound ? options.max_texture_bytes : default_budget(map.image.texels.size());
     auto start = start_within(map, options, budget, progress, clock);
     if (!start) return start.error();
     const Candidate& first = start->candidate;
     if (bytes_bound && first.bytes() > budget) return refuse_bytes(map, options, first.bytes(), progress, clock);
     if (options.max_error <= 0.0 || first.stats.p999 <= options.max_error) return std::move(start->candidate);
     return closer_within(start->source, options, std::move(start->candidate), progress, clock);
+}
+
+// The candidate of a coarser map, with the figures that it reaches against the map itself.
+Result<Candidate> of_finer_map(Candidate candidate, const HeightMap& map, int halvings, const ConvertOptions& options,
+                               StageClock& clock) {
+    const int times = 1 << halvings;
+    candidate.stats.halvings = halvings;
+    candidate.stats.path_length_texels *= times;
+    candidate.traced.tolerance *= times;
+    return measure_candidate(std::move(candidate), map, options, clock);
+}
+
+// As many texels as show all of the map are traced.
+Result<Candidate> best_candidate(const HeightMap& map, const ConvertOptions& options, const Progress& progress,
+                                 StageClock& clock) {
+    const bool bytes_bound = options.max_texture_bytes > 0;
+    const std::size_t budget = bytes_bound ? options.max_texture_bytes : default_budget(map.image.texels.size());
+    if (options.max_error > 0.0) return within_bounds(map, options, budget, progress, clock);
+    if (!clock.begin("coarsen")) return stopped();
+    CoarsenOptions coarsen = options.coarsen;
+    coarsen.threads = options.threads;
+    const Coarsened coarse = coarsen_map(map, coarsen);
+    if (!coarse.map) return within_bounds(map, options, budget, progress, clock);
+    ConvertOptions coarse_options = options;
+    coarse_options.vectorize.tolerance /= 1 << coarse.halvings;
+    auto candidate = within_bounds(*coarse.map, coarse_options, budget, progress, clock);
+    if (candidate) candidate = of_finer_map(std::move(*candidate), map, coarse.halvings, options, clock);
+    return candidate;
 }
 
 // Without the paths that could not be joined: the pattern of what is stored.
@@ -476,7 +506,7 @@ Status share_out(const HeightMap& map, const Candidate& candidate, int threads, 
     if (lines && stats.steps > 0) {
         // Fewer samples take a third of the time and move the share by less than 0.0005.
         const auto heights = reconstruct(map, candidate.packed.textures, candidate.packed.detail,
-                                         {.steps_only = true, .samples = 2, .threads = threads});
+                                         {.steps_only = true, .samples = samples_for(stats, 2), .threads = threads});
         if (!heights) return heights.error();
         steps = compare_heights(*heights, map.image, stats.repeat ? Wrap::repeat : Wrap::clamp, threads).explained;
     }
@@ -487,7 +517,7 @@ Status share_out(const HeightMap& map, const Candidate& candidate, int threads, 
 // What the stored paths leave, as a normal map.
 Result<Residual> residual_of(const HeightMap& map, const FoundPattern& found, const ConvertOptions& options) {
     // Fewer samples than the figures of heights take: half the time, and angles within 0.02 degrees.
-    const auto heights = reconstruct(map, found.textures, found.detail, {.samples = 3, .threads = options.threads});
+    const auto heights = reconstruct(map, found.textures, found.detail, {.samples = samples_for(found.stats, 3), .threads = options.threads});
     if (!heights) return heights.error();
     ResidualOptions residual = options.residual;
     residual.threads = options.threads;
@@ -506,7 +536,7 @@ Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& op
                      "max_error: " + std::to_string(options.max_error) + " of the range; 0 to 1 would work"};
     std::vector<std::pair<std::string, double>> seconds;
     StageClock clock(progress, seconds);
-    auto candidate = within_bounds(map, options, progress, clock);
+    auto candidate = best_candidate(map, options, progress, clock);
     if (!candidate) return candidate.error();
 
     FoundPattern found;

@@ -115,11 +115,13 @@ class Assembler {
                box.low.y > size.y + reach;
     }
 
+    // What texels hold, the last code included: a point a hair's breadth before 1.5 would round to one that is none.
     bool fits_range(const Element& e) const {
+        constexpr double kLast = 1.5 - 1.0 / BURIN_COORDINATE_STEPS;
         const Box box = curve::control_box(e);
         const Vec2 size = work_.pattern.size;
-        return box.low.x >= -0.5 * size.x && box.low.y >= -0.5 * size.y && box.high.x < 1.5 * size.x &&
-               box.high.y < 1.5 * size.y;
+        return box.low.x >= -0.5 * size.x && box.low.y >= -0.5 * size.y && box.high.x <= kLast * size.x &&
+               box.high.y <= kLast * size.y;
     }
 
     // Within range, and all of the strip nearer than 0.45 tile to the chord's midpoint.

@@ -7,6 +7,8 @@
 #include <burin/evaluate.hpp>
 #include <burin/resolve.hpp>
 
+#include "layout.h"
+
 namespace burin {
 namespace {
 
@@ -576,6 +578,18 @@ TEST(ResolveCleaning, DotsStayWhereTheyAre) {
         EXPECT_EQ(resolved.stats.snapped_ends, 0);
         EXPECT_EQ(resolved.elements[1].element.p2.x, 0.4 + distance);
         EXPECT_FALSE(is_clip(resolved.elements[1].start) || is_clip(resolved.elements[2].end));
+    }
+}
+
+// Half a tile that begins a hair's breadth before its end: stored as it is, its last point would round to a code there is not.
+TEST(ResolveCleaning, WhatEndsAtTheLastCodeIsCut) {
+    for (const double before : {0.0, 1e-16, 1e-9, 3e-7}) {
+        Pattern pattern = empty_pattern();
+        pattern.paths = {chain({{1.0 - before, 0.6}, {1.5 - before, 0.6}})};
+        for (const ResolvedElement& e : resolve(pattern).elements) {
+            const double furthest = std::max(e.element.p0.x, e.element.p2.x);
+            EXPECT_LT(std::lround((furthest + 0.5) * BURIN_COORDINATE_STEPS), 1l << BURIN_COORDINATE_BITS) << before;
+        }
     }
 }
 

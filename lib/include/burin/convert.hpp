@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <burin/bake.hpp>
+#include <burin/coarsen.hpp>
 #include <burin/grid.hpp>
 #include <burin/heightmap.hpp>
 #include <burin/model.hpp>
@@ -32,6 +33,8 @@ namespace burin {
 
 // The options of every stage. `threads` goes to all of them and replaces what they hold.
 struct ConvertOptions {
+    // What is vectorized and refined; figures, fallback maps and residual are of the map itself. Not with max_error.
+    CoarsenOptions coarsen;
     VectorizeOptions vectorize;
     bool refine = true;  // least squares against the map after vectorizing
     RefineOptions refinement;
@@ -83,6 +86,7 @@ struct ConvertStats {
     int dropped_paths = 0;                // could not be resolved
     std::size_t grid_bytes = 0, data_bytes = 0, file_bytes = 0;
     Unrefined unrefined = Unrefined::no;  // whether the refinement ran and was kept, and why not
+    int halvings = 0;                     // of the map's sides before it was traced; see coarsen_map
     double noise = 0.0;                   // standard deviation of the map's grain, of its range
     double tolerance = 0.0;               // of the fit, texels
     double path_length_texels = 0.0;      // of all stored elements together
