@@ -34,13 +34,13 @@ CoarsenOptions small_maps(int threads = 1) {
 }
 
 TEST(Coarsen, SoftMapsAreHalvedUntilTheirWallsAreSharp) {
-    EXPECT_EQ(coarsen_map(soft_map(512, 512, 32.0), small_maps()).halvings, 3);
-    EXPECT_EQ(coarsen_map(soft_map(512, 512, 16.0), small_maps()).halvings, 2);
+    EXPECT_EQ(coarsen_map(soft_map(512, 512, 32.0), small_maps()).halvings, 2);
+    EXPECT_EQ(coarsen_map(soft_map(512, 512, 16.0), small_maps()).halvings, 1);
     EXPECT_EQ(coarsen_map(soft_map(512, 512, 2.0), small_maps()).halvings, 0);
 }
 
 TEST(Coarsen, RoundingToEightBitsHidesNoSoftness) {
-    EXPECT_EQ(coarsen_map(soft_map(512, 512, 16.0, 255), small_maps()).halvings, 2);
+    EXPECT_EQ(coarsen_map(soft_map(512, 512, 16.0, 255), small_maps()).halvings, 1);
 }
 
 TEST(Coarsen, EveryTexelIsTheMeanOfFour) {
@@ -85,7 +85,7 @@ TEST(Coarsen, PathsLieWhereTheFineMapHasThem) {
     const auto from_fine = find_pattern(map, fine), from_coarse = find_pattern(map, coarse);
     ASSERT_TRUE(from_fine.ok() && from_coarse.ok());
     EXPECT_EQ(from_fine->stats.halvings, 0);
-    EXPECT_EQ(from_coarse->stats.halvings, 2);
+    EXPECT_EQ(from_coarse->stats.halvings, 1);
     EXPECT_GT(from_coarse->stats.explained, 0.995);
     EXPECT_GT(from_coarse->stats.explained, from_fine->stats.explained - 0.002);
     EXPECT_NEAR(from_coarse->stats.path_length_texels, from_fine->stats.path_length_texels, 40.0);
