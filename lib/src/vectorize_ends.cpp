@@ -86,7 +86,8 @@ struct TailCurve {
 
 // `near`: points from the end backwards. Least squares for a parabola over their chord, which an arc that turns little is.
 TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
-    constexpr double kStraight = 0.1;  // texels, by which the points of a straight line may wobble
+    constexpr std::size_t kMany = 8, kLeast = 5;          // points of an arc
+    const double straight = near.size() < kMany ? 0.2 : 0.1;  // texels, by which the points of a straight line may wobble
     const Vec2 origin = near.front();
     const double chord = length(near.front() - near.back());
     const Vec2 rough = unit(near.front() - near.back()), left = normal_of(rough);
@@ -98,7 +99,7 @@ TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
             m[i][3] += row[i] * v;
         }
     }
-    if (near.size() < 8 || lies_straight(near, kStraight)) m[2][2] += 1e12;
+    if (near.size() < kLeast || lies_straight(near, straight)) m[2][2] += 1e12;
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
             if (k == i || std::fabs(m[i][i]) < 1e-12) continue;
