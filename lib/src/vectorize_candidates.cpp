@@ -119,8 +119,11 @@ struct Rows {
 
 constexpr double kPoint = 1.0;  // half-width below which a taper is but blur
 
-// `alone`: only places where no other chain comes near.
-Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach, bool alone) {
+// No other chain comes near; on one side none does, which stands for both (they are as wide); any.
+enum class Places : std::uint8_t { alone, one_sided, all };
+const std::vector<Places> kUsualPlaces{Places::alone, Places::all};
+
+Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach, Places places) {
     Rows rows;
     rows.left = static_cast<int>(std::ceil(reach.left / 0.5));
     const int right = static_cast<int>(std::ceil(reach.right / 0.5));
@@ -132,7 +135,7 @@ Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& 
         const Vec2 a = chain.points[i], b = chain.points[i + 1];
         const double l = length(b - a);
         // Where points are missing the chain was bridged over a crossing.
-        if (l == 0.0 || (alone && l > kBridge)) continue;
+        if (l == 0.0 || (places != Places::all && l > kBridge)) continue;
         const Vec2 normal = normal_of(unit(b - a));
         const double half_width = chain.half_width_at(i);
         if (!chain.half_widths.empty() && half_width < kPoint) continue;
@@ -140,13 +143,18 @@ Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& 
         const int pieces = std::max(1, static_cast<int>(l / 2.0));
         for (int piece = 0; piece < pieces; ++piece) {
             const Vec2 p = lerp(a, b, (piece + 0.5) / pieces);
-            bool disturbed = false;
+            bool disturbed[2] = {false, false};
             for (int k = -rows.left; k <= right; ++k) {
                 const Vec2 q = p + normal * (k * step);
-                disturbed |= is_beside(half_width, self, around, q, k * step);
+                disturbed[k > 0] |= is_beside(half_width, self, around, q, k * step);
                 row[static_cast<std::size_t>(k + rows.left)] = sample(around.map, around.lattice, q);
             }
-            if (alone && disturbed) continue;
+            if (places == Places::alone && (disturbed[0] || disturbed[1])) continue;
+            if (places == Places::one_sided) {
+                if (disturbed[0] && disturbed[1]) continue;
+                if (disturbed[0]) std::reverse_copy(row.end() - rows.left, row.end(), row.begin());
+                if (disturbed[1]) std::reverse_copy(row.begin(), row.begin() + right, row.end() - right);
+            }
             const float ground = 0.5f * (row.front() + row.back());
             rows.tilts.push_back(row.back() - row.front());
             for (std::size_t k = 0; k < row.size(); ++k) rows.columns[k].push_back(row[k] - ground);
@@ -155,10 +163,14 @@ Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& 
     return rows;
 }
 
-CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach) {
-    constexpr std::size_t kEnoughAlone = 4;
-    Rows rows = sample_sections(chain, self, around, reach, true);
-    if (rows.tilts.size() < kEnoughAlone) rows = sample_sections(chain, self, around, reach, false);
+CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach,
+                                   const std::vector<Places>& choice) {
+    constexpr std::size_t kEnough = 4;
+    Rows rows;
+    for (const Places places : choice) {
+        rows = sample_sections(chain, self, around, reach, places);
+        if (rows.tilts.size() >= kEnough) break;
+    }
     std::vector<float>& tilts = rows.tilts;
     std::vector<std::vector<float>>& columns = rows.columns;
     CrossSection section;
@@ -191,12 +203,14 @@ CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const 
 }
 
 constexpr double kBroad = 6.0;  // half-width in texels
+constexpr double kClearly = 0.93;  // share of a section that is one and the same
 
 // A line has one section all along it, and the same ground on both sides. What fails this is the rim of a plateau or a
 // blob, which the step contours describe better; and so do they a wide line whose rims are ragged.
-bool has_one_section(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach) {
+bool has_one_section(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach,
+                     const std::vector<Places>& choice = kUsualPlaces) {
     const double noise = around.noise;
-    const CrossSection section = measure_cross_section(chain, self, around, reach);
+    const CrossSection section = measure_cross_section(chain, self, around, reach, choice);
     // A closing that does not span the line fills only a part of it: it is wider than it looks.
     if (chain.half_width > 2.0 && chain.contrast < 0.93 * section.depth) return false;
     const double grain = 0.5 * (2.0 * (reach.left + reach.right) + 1.0) * (noise / section.depth) * (noise / section.depth);
@@ -215,9 +229,20 @@ bool stands_alone(const Chain& chain, std::int32_t self, const Surroundings& aro
     const double least = std::min(far, std::max(chain.half_width + 2.0, 2.2 * chain.half_width));
     const Reach reach = free_reach(chain, self, around, far);
     if (std::min(reach.left, reach.right) < least) return false;
-    const CrossSection section = measure_cross_section(chain, self, around, reach);
+    const CrossSection section = measure_cross_section(chain, self, around, reach, kUsualPlaces);
     return section.depth > 0.9 * chain.contrast && std::fabs(section.tilt) < 0.2 * section.depth &&
-           section.explained > 0.93;
+           section.explained > kClearly;
+}
+
+// Whether much of a chain was bridged: it crosses others at small angles.
+bool crosses_long(const Chain& chain) {
+    constexpr double kMuch = 0.3;
+    double bridged = 0.0;
+    for (std::size_t i = 1; i < chain.points.size(); ++i) {
+        const double gap = length(chain.points[i] - chain.points[i - 1]);
+        if (gap > kBridge) bridged += gap;
+    }
+    return bridged > kMuch * chain_length(chain);
 }
 
 bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) {
@@ -233,8 +258,14 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
     if (std::min(free.left, free.right) < near &&
         has_one_section(chain, self, around, {std::max(least, free.left), std::max(least, free.right)}))
         return true;
-    // A thin line may have a rim of its own on one side: there the ground lies farther out.
-    return chain.half_width <= 1.5 && has_one_section(chain, self, around, {4.0 * near, 4.0 * near});
+    // A line that crosses another at a small angle has that one first on one side, then on the other.
+    const std::vector<Places> one_sided{Places::one_sided};
+    if (crosses_long(chain) && has_one_section(chain, self, around, {near, near}, one_sided) &&
+        measure_cross_section(chain, self, around, {near, near}, one_sided).explained > kClearly)
+        return true;
+    // A thin line may have a rim of its own on one side: there the ground lies farther out. The rim of an area has too.
+    const double far = 4.0 * near;
+    return chain.half_width <= 1.5 && chain_length(chain) > far && has_one_section(chain, self, around, {far, far});
 }
 
 // Whether the map is as deep (high) between two points of a chain as it is at them.
@@ -320,8 +351,10 @@ Kept keep_parts(const Chain& whole, std::int32_t self, const Surroundings& aroun
             kept.lines.push_back(std::move(chain));
             continue;
         }
-        const bool splits_well = splits < 3 && !chain.closed && chain.points.size() >= 24 && chain.half_width <= kBroad &&
-                                 chain.half_widths.empty();
+        // A line that was followed over a crossing of small angle waits for a wider look as a whole.
+        const bool waits = is_one && crosses_long(chain);
+        const bool splits_well = !waits && splits < 3 && !chain.closed && chain.points.size() >= 24 &&
+                                 chain.half_width <= kBroad && chain.half_widths.empty();
         const std::size_t at = splits_well ? find_change(chain, around.map, around.lattice) : 0;
         if (at == 0) continue;
         Chain second = chain;

@@ -14,6 +14,44 @@ bool lies_straight(const std::vector<Vec2>& points, double most_misfit) {
                        [&](Vec2 p) { return std::fabs(cross(line.direction, p - line.mean)) < most_misfit; });
 }
 
+}  // namespace
+
+// Least squares for a parabola over the chord, which an arc that turns little is.
+TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
+    constexpr std::size_t kMany = 8, kLeast = 5;          // points of an arc
+    const double straight = near.size() < kMany ? 0.2 : 0.1;  // texels, by which the points of a straight line may wobble
+    const Vec2 origin = near.front();
+    const double chord = length(near.front() - near.back());
+    const Vec2 rough = unit(near.front() - near.back()), left = normal_of(rough);
+    double m[3][4] = {};
+    for (const Vec2 p : near) {
+        const double s = dot(p - origin, rough), v = dot(p - origin, left), row[3] = {1.0, s, s * s};
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) m[i][j] += row[i] * row[j];
+            m[i][3] += row[i] * v;
+        }
+    }
+    if (near.size() < kLeast || lies_straight(near, straight)) m[2][2] += 1e12;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) {
+            if (k == i || std::fabs(m[i][i]) < 1e-12) continue;
+            const double f = m[k][i] / m[i][i];
+            for (int j = i; j < 4; ++j) m[k][j] -= f * m[i][j];
+        }
+    const auto solved = [&](int i) { return std::fabs(m[i][i]) < 1e-12 ? 0.0 : m[i][3] / m[i][i]; };
+    const double a = solved(0), b = solved(1), c = solved(2);
+    const double tightest = 1.0 / std::max(3.0, half_width);
+    const double curvature = std::clamp(2.0 * c / std::pow(1.0 + b * b, 1.5), -tightest, tightest);
+    TailCurve tail{origin + left * a, unit(rough + left * b), curvature, std::fabs(curvature) * chord};
+    for (const Vec2 p : near) {
+        const double s = dot(p - origin, rough);
+        tail.misfit = std::max(tail.misfit, std::fabs(dot(p - origin, left) - a - b * s - c * s * s));
+    }
+    return tail;
+}
+
+namespace {
+
 // The points of a chain that lie straight on one side of a corner.
 struct Side {
     std::ptrdiff_t nearest = 0;  // index of the point next to the corner
@@ -68,53 +106,6 @@ void turn_seam(Chain& chain, double baseline) {
     }
     for (std::size_t k = 0; k < calmest; ++k) points[k] = points[k] + chain.winding;
     std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(calmest), points.end());
-}
-
-// The way a chain takes near its end: an arc, fitted to the points that the cap does not disturb.
-struct TailCurve {
-    Vec2 origin, along;
-    double curvature = 0.0;  // to the left
-    double turn = 0.0;       // of the points it was fitted to, radians
-    double misfit = 0.0;     // greatest distance of these points from it
-
-    Vec2 at(double s) const {
-        const double angle = curvature * s;
-        if (std::fabs(angle) < 1e-4) return origin + along * s + normal_of(along) * (0.5 * curvature * s * s);
-        return origin + along * (std::sin(angle) / curvature) + normal_of(along) * ((1.0 - std::cos(angle)) / curvature);
-    }
-};
-
-// `near`: points from the end backwards. Least squares for a parabola over their chord, which an arc that turns little is.
-TailCurve fit_tail(const std::vector<Vec2>& near, double half_width) {
-    constexpr double kStraight = 0.1;  // texels, by which the points of a straight line may wobble
-    const Vec2 origin = near.front();
-    const double chord = length(near.front() - near.back());
-    const Vec2 rough = unit(near.front() - near.back()), left = normal_of(rough);
-    double m[3][4] = {};
-    for (const Vec2 p : near) {
-        const double s = dot(p - origin, rough), v = dot(p - origin, left), row[3] = {1.0, s, s * s};
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) m[i][j] += row[i] * row[j];
-            m[i][3] += row[i] * v;
-        }
-    }
-    if (near.size() < 8 || lies_straight(near, kStraight)) m[2][2] += 1e12;
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) {
-            if (k == i || std::fabs(m[i][i]) < 1e-12) continue;
-            const double f = m[k][i] / m[i][i];
-            for (int j = i; j < 4; ++j) m[k][j] -= f * m[i][j];
-        }
-    const auto solved = [&](int i) { return std::fabs(m[i][i]) < 1e-12 ? 0.0 : m[i][3] / m[i][i]; };
-    const double a = solved(0), b = solved(1), c = solved(2);
-    const double tightest = 1.0 / std::max(3.0, half_width);
-    const double curvature = std::clamp(2.0 * c / std::pow(1.0 + b * b, 1.5), -tightest, tightest);
-    TailCurve tail{origin + left * a, unit(rough + left * b), curvature, std::fabs(curvature) * chord};
-    for (const Vec2 p : near) {
-        const double s = dot(p - origin, rough);
-        tail.misfit = std::max(tail.misfit, std::fabs(dot(p - origin, left) - a - b * s - c * s * s));
-    }
-    return tail;
 }
 
 // The width of a line at its last point, and what it loses by every texel towards there.

@@ -14,6 +14,7 @@ struct Arm {
     int end = 0;       // 0 front, 1 back
     Vec2 foot;         // a point of the fitted end line, near the node
     Vec2 direction;    // unit, towards the node
+    TailCurve tail;    // the way from the strand's last point towards the node
     double half_width = 0.0, contrast = 0.0;
     int partner = -1;  // index of the arm that continues it
     bool cornered = false;
@@ -52,6 +53,10 @@ Arm make_arm(const Strand& strand, int index, int end, const SkeletonNode& node,
     if (dot(direction, outward) < 0.0) direction = -direction;
     arm.direction = near.size() > 1 ? direction : unit(-foot);
     arm.foot = foot;
+    if (near.size() > 1 && near.front() != near.back()) {
+        arm.tail = fit_tail(near, arm.half_width);
+        arm.tail.origin = arm.tail.origin + shift - node.position;
+    }
     return arm;
 }
 
@@ -63,19 +68,44 @@ bool intersect(const Arm& a, const Arm& b, Vec2& point) {
     return true;
 }
 
-// How badly two arms continue each other: turning angle in radians plus offset; above 1 they do not.
-double continuation_cost(const Arm& a, const Arm& b) {
-    constexpr double kMostTurn = 0.5, kCosine = 0.8775;  // kCosine: just below that of kMostTurn, and at once at hand
-    const double cosine = -dot(a.direction, b.direction);
-    if (cosine < kCosine) return 2.0;
-    const double turn = std::acos(std::min(cosine, 1.0));
+// Turning angle in radians from one direction to another.
+double turn_between(Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); }
+
+bool look_alike(const Arm& a, const Arm& b) {
+    const double width_ratio = (std::max(a.half_width, b.half_width) + 0.5) / (std::min(a.half_width, b.half_width) + 0.5);
+    const double contrast_ratio = std::max(a.contrast, b.contrast) / std::max(1e-6, std::min(a.contrast, b.contrast));
+    return width_ratio <= 1.6 && contrast_ratio <= 2.0;
+}
+
+constexpr double kNoContinuation = 2.0;
+
+// Turning angle plus offset.
+double straight_cost(const Arm& a, const Arm& b) {
+    constexpr double kMostTurn = 0.5;
+    const double turn = std::fabs(turn_between(a.direction, -b.direction));
     const Vec2 between = b.foot - a.foot;
     const double offset = std::max(std::fabs(cross(a.direction, between)), std::fabs(cross(b.direction, between)));
     const double allowed = 0.35 * std::max(a.half_width, b.half_width) + 0.6 + 0.12 * length(between);
-    const double width_ratio = (std::max(a.half_width, b.half_width) + 0.5) / (std::min(a.half_width, b.half_width) + 0.5);
-    const double contrast_ratio = std::max(a.contrast, b.contrast) / std::max(1e-6, std::min(a.contrast, b.contrast));
-    if (turn > kMostTurn || offset > allowed || width_ratio > 1.6 || contrast_ratio > 2.0) return 2.0;
-    return turn / kMostTurn * 0.5 + offset / allowed * 0.5;
+    return turn > kMostTurn || offset > allowed ? kNoContinuation : 0.5 * turn / kMostTurn + 0.5 * offset / allowed;
+}
+
+// What an arc that bends as both arms do leaves over: it turns by as much in between, half of it on either side of the chord.
+double bent_cost(const Arm& a, const Arm& b) {
+    constexpr double kMostTurn = 1.5, kMostDifference = 0.3, kMostRatio = 2.0;
+    const double bend = a.tail.curvature, other = -b.tail.curvature;
+    const bool same_way = bend * other > 0.0 && std::fabs(bend) < kMostRatio * std::fabs(other) && std::fabs(other) < kMostRatio * std::fabs(bend);
+    const Vec2 between = b.tail.origin - a.tail.origin;
+    if (!same_way || dot(a.tail.along, between) <= 0.0) return kNoContinuation;
+    const double first = turn_between(a.tail.along, between), second = turn_between(between, -b.tail.along);
+    const double uneven = std::fabs(first - second);
+    const double difference = std::fabs(first + second - 0.5 * (bend + other) * length(between));
+    if (std::fabs(first + second) > kMostTurn || std::max(uneven, difference) > kMostDifference) return kNoContinuation;
+    return 0.5 * (uneven + difference) / kMostDifference;
+}
+
+// How badly two arms continue each other; above 1 they do not.
+double continuation_cost(const Arm& a, const Arm& b) {
+    return look_alike(a, b) ? std::min(straight_cost(a, b), bent_cost(a, b)) : kNoContinuation;
 }
 
 void pair_through(Joint& joint) {

@@ -1,6 +1,8 @@
 // The graph of a thinned mask: strands between nodes. Part of stage vectorize.
 #pragma once
 
+#include <cmath>
+
 #include "vectorize_internal.hpp"
 #include "vectorize_parts.hpp"
 
@@ -52,6 +54,23 @@ void measure_strands(Skeleton& skeleton, const Image& response, const Lattice& l
 // Pairs the strands that continue each other at nodes and ties the rest.
 std::vector<Chain> join_strands(Skeleton& skeleton, const Image& response, const Lattice& lattice,
                                 ChainKind kind);
+
+// The way a chain takes near its end: an arc, fitted to the points that the cap does not disturb.
+struct TailCurve {
+    Vec2 origin, along;
+    double curvature = 0.0;  // to the left
+    double turn = 0.0;       // of the points it was fitted to, radians
+    double misfit = 0.0;     // greatest distance of these points from it
+
+    Vec2 at(double s) const {
+        const double angle = curvature * s;
+        if (std::fabs(angle) < 1e-4) return origin + along * s + normal_of(along) * (0.5 * curvature * s * s);
+        return origin + along * (std::sin(angle) / curvature) + normal_of(along) * ((1.0 - std::cos(angle)) / curvature);
+    }
+};
+
+// `near`: at least two points, from the end backwards. The arc is no tighter than the half-width.
+TailCurve fit_tail(const std::vector<Vec2>& near, double half_width);
 
 // Puts corners that were cut off where the straight lines on both sides of them meet.
 void sharpen_corners(Chain& chain);

@@ -81,6 +81,16 @@ Trend trend_at(const Track& track, double at, double span) {
     return {std::max(0.0, v + slope * (at - p)), slope};
 }
 
+// Whether a place is clearly narrower or wider than the line is there.
+bool differs(double half_width, double usual) { return std::fabs(half_width - usual) >= 0.25 * usual + 0.3; }
+
+// Whether a line is as wide as ever but for an end that widens: it runs into a broader one.
+bool widens_at_end(const std::vector<double>& taper, double usual) {
+    constexpr double kBroader = 1.6;
+    const auto is_narrow = [&](double half_width) { return half_width < usual && differs(half_width, usual); };
+    return std::max(taper.front(), taper.back()) > kBroader * usual && std::none_of(taper.begin(), taper.end(), is_narrow);
+}
+
 // The half-width at each of `places` along a line that clearly tapers or swells; none for one that does not, and for what
 // widens as fast as a blob or two lines that part.
 std::vector<double> taper_of(const Track& widths, const std::vector<double>& places) {
@@ -94,6 +104,7 @@ std::vector<double> taper_of(const Track& widths, const std::vector<double>& pla
         if (std::fabs(trend.slope) > kSteepest) return {};
         taper.push_back(trend.value);
     }
+    if (widens_at_end(taper, usual)) return {};
     const auto [least, most] = std::minmax_element(taper.begin(), taper.end());
     return *most - *least < kLeastChange * usual + 0.5 ? std::vector<double>{} : taper;
 }
@@ -132,14 +143,12 @@ void measure_strand(Strand& strand, const Image& response, const Lattice& lattic
     }
     strand.half_width = median(widths.value);
     strand.contrast = median(peaks);
-    const auto differs = [&](std::ptrdiff_t i, double usual) {
-        return !sections[i].found || std::fabs(sections[i].half_width - usual) >= 0.25 * usual + 0.3;
-    };
     std::vector<double> places(strand.texels.size());
     std::iota(places.begin(), places.end(), 0.0);
     const std::vector<double> taper = taper_of(widths, places);
     for (std::ptrdiff_t i = 0; i < n; ++i) {
-        const bool steady = !differs(i, taper.empty() ? strand.half_width : taper[i]);
+        const double usual = taper.empty() ? strand.half_width : taper[static_cast<std::size_t>(i)];
+        const bool steady = sections[i].found && !differs(sections[i].half_width, usual);
         bool near_node = false;
         for (const int node : strand.node)
             if (node >= 0) {

@@ -65,6 +65,21 @@ TEST(VectorizeStrokes, ArcsEndWhereTheyEnd) {
     EXPECT_LT(r.contour.rms, 0.02);
 }
 
+// No longer than a few widths, and bent all along.
+TEST(VectorizeStrokes, ShortTightArcsStayArcs) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.5);
+    for (int i = 0; i < 4; ++i) {
+        const double from = random(0, 6.28);
+        map.draw(map.pens().groove(random(3, 4.5), kDepth), arc(map.field(i), random(8, 12), from, from + random(1.2, 1.7)));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("short arcs", r);
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_EQ(r.contour.lost, 0.0);
+    EXPECT_LT(r.contour.rms, 0.03);
+}
+
 // The ground between strokes nearly as near as they are wide is no ridge.
 TEST(VectorizeStrokes, NearStrokesAreStrokes) {
     Uniform random(seed_of_run());
@@ -179,6 +194,39 @@ TEST(VectorizeStrokes, CrossingsAreNoPairsOfStems) {
     }
     const Recovered r = recovered_from(map.take());
     report("crossings", r);
+    expect_whole(nodes(r, NodeKind::cross), "crossings");
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_LT(r.contour.rms, 0.02);
+}
+
+// An arc that a stroke crosses turns while it is hidden.
+TEST(VectorizeStrokes, ArcsGoOnThroughCrossings) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.5);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28);
+        const Vec2 c = map.field(i), way = toward(along, 52);
+        map.draw(map.pens().groove(random(4, 6), kDepth), arc(c, random(26, 40), along + 1.0, along + 1.0 + random(3.5, 4.2)));
+        map.draw(map.pens().groove(random(6, 9), kDepth), polyline({c - way, c + way}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("arcs through crossings", r);
+    EXPECT_GE(r.structure.percent(), 65.0);
+    EXPECT_LT(r.contour.rms, 0.03);
+}
+
+// They run as one for most of their length, and each has the other first on one side, then on the other.
+TEST(VectorizeStrokes, StrokesCrossAtSmallAngles) {
+    Uniform random(seed_of_run());
+    DrawnMap map(1.5);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28), across = along + degrees(random(10, 25)), thin = random(3, 4);
+        const Vec2 c = map.field(i);
+        map.draw(map.pens().groove(thin, kDepth), polyline({c - toward(along, 46), c + toward(along, 46)}));
+        map.draw(map.pens().groove(thin * random(1, 1.5), kDepth), polyline({c - toward(across, 46), c + toward(across, 46)}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("small angles", r);
     expect_whole(nodes(r, NodeKind::cross), "crossings");
     expect_whole(r.structure.paths, "paths");
     EXPECT_LT(r.contour.rms, 0.02);
