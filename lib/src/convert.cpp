@@ -240,10 +240,11 @@ int count_elements(const Pattern& pattern) {
 
 // Of elements, so that the textures keep to the budget: what is too much goes at the elements' cost, since cells and lists are
 // as small already as they may be.
-double share_to_keep(const PackedTextures& textures, std::size_t budget) {
-    constexpr double kMargin = 0.97, kLeast = 0.2;
+double share_to_keep(const PackedTextures& textures, std::size_t budget, int attempt) {
+    constexpr double kLeast = 0.2;
+    const double margin = std::max(0.5, 1.0 - 0.03 * attempt * attempt);  // what did not suffice once takes more
     const double bytes = static_cast<double>(bytes_of(textures)), excess = bytes - static_cast<double>(budget);
-    return kMargin * std::max(kLeast, 1.0 - excess / static_cast<double>(element_bytes(textures)));
+    return margin * std::max(kLeast, 1.0 - excess / static_cast<double>(element_bytes(textures)));
 }
 
 // Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
@@ -252,6 +253,8 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
                              const Progress& progress, StageClock& clock, int most_elements = 0) {
     const bool asked = options.max_texture_bytes > 0;
     const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
+    // The refinement finds profiles alike, and stores fewer.
+    const std::size_t enough = asked ? budget : budget + budget / 50;
     VectorizeOptions vectorize = vectorize_options(options);
     vectorize.shading = source.shading;
     if (most_elements > 0) vectorize.most_elements = most_elements;
@@ -269,10 +272,10 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
         if (!candidate) return candidate.error();
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
         candidate->most_elements = vectorize.most_elements;
-        if (candidate->bytes() <= budget || attempt == most_attempts || elements <= fewest)
+        if (candidate->bytes() <= enough || attempt == most_attempts || elements <= fewest)
             return measure_candidate(std::move(*candidate), source.map, options, clock);
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
-        vectorize.most_elements = std::max(fewest, static_cast<int>(most * share_to_keep(candidate->packed.textures, budget)));
+        vectorize.most_elements = std::max(fewest, static_cast<int>(most * share_to_keep(candidate->packed.textures, budget, attempt)));
     }
 }
 

@@ -258,15 +258,11 @@ struct Newcomer {
     double allowed = 0.0;  // difference from the cluster it joins
 };
 
-constexpr double kShortRim = 50.0;  // texels
-
 Newcomer look_at(const Chain& chain, Section section, const Regions& regions, double closeness, double noise) {
     const bool step = chain.kind == ChainKind::step;
     const double rise = step ? regions.level[chain.right_region] - regions.level[chain.left_region] : 0.0;
     // A spot is its section and a place, so that a section that is a little too wide shows all round it.
-    // A short rim shows its section in few texels, and corners disturb it.
-    const double close = step ? closeness * (1.0 + kShortRim / static_cast<double>(chain.points.size()))
-                              : chain.spot == Spot::no ? closeness : 0.2 * closeness;
+    const double close = chain.spot == Spot::no ? closeness : 0.2 * closeness;
     const double allowed = close * std::max(amplitude(section), std::fabs(rise)) + noise;
     Section mirrored = section;
     mirror(mirrored);
