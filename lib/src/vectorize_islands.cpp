@@ -170,9 +170,30 @@ void mark_flat(const Shape& shape, const Image& source, const Lattice& lattice, 
     }
 }
 
+// How far a line lies below (above) the lower (higher) one of its sides, in the mean of its points.
+double stands_out(const Chain& line, const Image& map, const Lattice& lattice) {
+    const double sign = line.kind == ChainKind::groove ? 1.0 : -1.0, reach = line.half_width + 1.5;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+        const Vec2 a = line.points[i > 0 ? i - 1 : 0], b = line.points[std::min(i + 1, line.points.size() - 1)];
+        const Vec2 p = line.points[i], n = a == b ? Vec2{1.0, 0.0} : normal_of(unit(b - a));
+        const auto height = [&](Vec2 q) { return sign * sample(map, lattice, q); };
+        sum += std::min(height(p + n * reach), height(p - n * reach)) - height(p);
+    }
+    return sum / static_cast<double>(line.points.size());
+}
+
+// A short line that the map does not show: what was left on the wall of an area of which a part was taken for a line.
+bool is_on_wall(const Chain& line, const Image& source, const Lattice& lattice) {
+    constexpr double kStandsOut = 0.3;  // of its contrast
+    return line.spot == Spot::no && chain_length(line) < 6.0 * line.half_width + 8.0 &&
+           stands_out(line, source, lattice) < kStandsOut * line.contrast;
+}
+
 // What is left of a plateau that was taken out of the map as lines may look like a line on ground that is at no level of it.
 bool is_remnant(const Chain& line, const Image& flattened, const Lattice& lattice, const std::vector<std::uint8_t>& free,
                 const std::vector<Shape>& plateaus) {
+
     const auto freed = std::count_if(line.points.begin(), line.points.end(), [&](Vec2 p) { return free[lattice.nearest(p)] != 0; });
     if (2 * freed < static_cast<std::ptrdiff_t>(line.points.size())) return false;
     const double ground = value_along(line, flattened, lattice, 0.5);
@@ -206,8 +227,10 @@ bool return_islands(const Image& source, Image& flattened, std::vector<Chain>& l
     std::vector<Shape> plateaus;
     for (std::size_t s = 0; s < plateau.size(); ++s)
         if (plateau[s]) plateaus.push_back(finder.shapes()[s]);
-    if (plateaus.empty()) return false;
-    std::vector<std::uint8_t> returned = find_returned(finder, plateau, lines), free(flat.size(), 0), taken(flat.size(), 0);
+    std::vector<std::uint8_t> returned = find_returned(finder, plateau, lines);
+    for (std::size_t c = 0; c < lines.size(); ++c) returned[c] |= is_on_wall(lines[c], source, lattice);
+    if (std::find(returned.begin(), returned.end(), 1) == returned.end()) return false;
+    std::vector<std::uint8_t> free(flat.size(), 0), taken(flat.size(), 0);
     for (std::size_t c = 0; c < lines.size(); ++c)
         if (returned[c]) mark_taken(lines[c], lattice, free);
     for (std::size_t c = 0; c < lines.size(); ++c) {
