@@ -158,10 +158,11 @@ class Fitting {
     double expected() const { return ratio_ * static_cast<double>(lines_ + steps_); }
     // Whether curves can be fitted to see how many there are; and whether they were.
     bool is_quick() const { return is_quick_; }
-    bool is_sure() const { return ratio_ != 1.0; }
+    bool is_sure() const { return is_sure_; }
     std::vector<FittedChain> fit(double tolerance) {
         std::vector<FittedChain> fitted = join(fit_chains(traced_.lines, map_, traced_.lattice, tolerance, threads_),
                                                fit_chains(steps(), map_, traced_.lattice, tolerance, threads_));
+        is_sure_ = true;
         ratio_ = static_cast<double>(count_elements(fitted)) / static_cast<double>(std::max<std::size_t>(1, lines_ + steps_));
         return fitted;
     }
@@ -174,7 +175,7 @@ class Fitting {
     const Image& map_;
     Regions& regions_;
     int threads_;
-    bool is_quick_ = false, merged_ = false;
+    bool is_quick_ = false, is_sure_ = false, merged_ = false;
     std::vector<Chain> fewer_steps_;
     std::size_t lines_ = 0, steps_ = 0;
     double ratio_ = 1.0;  // of elements fitted to those foretold

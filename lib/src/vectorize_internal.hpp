@@ -243,8 +243,9 @@ struct MergeOptions {
 };
 void merge_regions(const MergeOptions& options, Regions& regions);
 
-// Lines of the map that are plateaus after all are put back into the map without lines, and what is level of them is marked
-// flat (see find_flat). True when there are any: then the regions are others.
+// Lines of the map that are plateaus after all, and short ones that it does not show, are put back into the map without
+// lines; `flat` (see find_flat) is that of the new map, and what is level of the plateaus is marked in it. True when there are
+// any: then the regions are others.
 bool return_islands(const Image& source, Image& flattened, std::vector<Chain>& lines, const Lattice& lattice,
                     const Regions& regions, std::vector<std::uint8_t>& flat, double noise);
 

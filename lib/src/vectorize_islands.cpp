@@ -67,7 +67,7 @@ class ShapeFinder {
             shape.texels.clear();
             if (!shape.is_bridge || extent > kLongestBridge * line.half_width) return;
         }
-        shape.is_bridge = !is_island;
+        shape.is_bridge = !is_island;  // an island may touch a plateau of its level, too
         shapes_.push_back(std::move(shape));
     }
 
@@ -220,6 +220,7 @@ std::vector<std::uint8_t> find_returned(const ShapeFinder& finder, const std::ve
 
 bool return_islands(const Image& source, Image& flattened, std::vector<Chain>& lines, const Lattice& lattice,
                     const Regions& regions, std::vector<std::uint8_t>& flat, double noise) {
+    if (lines.empty()) return false;
     ShapeFinder finder(source, flattened, lattice, regions);
     for (std::size_t c = 0; c < lines.size(); ++c)
         if (lines[c].spot == Spot::no && lines[c].half_width >= kLeastHalfWidth) finder.add(lines[c], c);
