@@ -106,6 +106,39 @@ struct Packed {
     std::vector<std::uint32_t> paths;  // of the pattern, that are stored
 };
 
+Result<PackedTextures> grid_and_pack(const ResolvedPattern& pattern, const GridOptions& options, const PackOptions& pack,
+                                     StageClock& clock) {
+    if (!clock.begin("grid")) return stopped();
+    const auto grid = build_grid(pattern, options);
+    if (!grid) return grid.error();
+    if (!clock.begin("pack")) return stopped();
+    return pack_textures(pattern, *grid, pack);
+}
+
+std::size_t bytes_of(const PackedTextures& textures) {
+    return (textures.grid.size() + textures.data.size()) * sizeof(std::uint32_t);
+}
+
+// Of elements and their styles, without cells and lists.
+std::size_t element_bytes(const PackedTextures& textures) {
+    return textures.data.size() * sizeof(std::uint32_t) - static_cast<std::size_t>(textures.sections.list_texels) * 16;
+}
+
+// What the budget leaves to cells and lists.
+std::size_t room_beside(const PackedTextures& textures, std::size_t budget) {
+    return budget - std::min(budget, element_bytes(textures));
+}
+
+// Larger cells make rays slower, but fewer elements lose something: cells and lists may be this small a share of the budget.
+constexpr std::size_t kLeastGrid = 5;
+
+// Quadratics that there is room for, with their place in the lists.
+int room_for_elements(const PackedTextures& textures, std::size_t budget) {
+    constexpr std::size_t kQuadraticBytes = 38;
+    const std::size_t room = room_beside(textures, budget);
+    return static_cast<int>((room - std::min(room, budget / kLeastGrid)) / kQuadraticBytes);
+}
+
 // Resolve, grid, pack.
 Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const ConvertOptions& options,
                             std::size_t budget, StageClock& clock, ConvertStats& stats) {
@@ -118,17 +151,17 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     stats.dropped_paths = resolved->stats.dropped_paths;
     stats.repeat = resolved->wrap == Wrap::repeat;
 
-    if (!clock.begin("grid")) return stopped();
-    GridOptions grid_options = options.grid;
-    grid_options.threads = options.threads;
-    if (grid_options.max_bytes == 0) grid_options.max_bytes = budget / 2;
-    const auto grid = build_grid(*resolved, grid_options);
-    if (!grid) return grid.error();
-    stats.cells = grid->cols * grid->rows;
-
-    if (!clock.begin("pack")) return stopped();
-    auto textures = pack_textures(*resolved, *grid, options.pack);
+    GridOptions grid = options.grid;
+    grid.threads = options.threads;
+    const bool chosen = grid.max_bytes > 0 || grid.cell_size > 0.0;
+    if (grid.max_bytes == 0) grid.max_bytes = budget / 2;
+    auto textures = grid_and_pack(*resolved, grid, options.pack, clock);
+    if (textures && !chosen && bytes_of(*textures) > budget) {
+        grid.max_bytes = std::max(budget / kLeastGrid, room_beside(*textures, budget));
+        textures = grid_and_pack(*resolved, grid, options.pack, clock);
+    }
     if (!textures) return textures.error();
+    stats.cells = textures->grid_width * textures->grid_height;
     stats.grid_bytes = textures->grid.size() * sizeof(std::uint32_t);
     stats.data_bytes = textures->data.size() * sizeof(std::uint32_t);
     PathDetail detail = describe_pattern(*resolved, *textures);
@@ -208,12 +241,23 @@ int count_elements(const Pattern& pattern) {
     return static_cast<int>(sum);
 }
 
+// Of elements, so that the textures keep to the budget: what is too much goes at the elements' cost, since cells and lists are
+// as small already as they may be.
+double share_to_keep(const PackedTextures& textures, std::size_t budget, int attempt) {
+    constexpr double kLeast = 0.2;
+    const double margin = std::max(0.5, 1.0 - 0.03 * attempt * attempt);  // what did not suffice once takes more
+    const double bytes = static_cast<double>(bytes_of(textures)), excess = bytes - static_cast<double>(budget);
+    return margin * std::max(kLeast, 1.0 - excess / static_cast<double>(element_bytes(textures)));
+}
+
 // Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
 // `most_elements`: as many as kept to it when the same map was traced in another way, or 0.
 Result<Candidate> fit_within(const Source& source, const ConvertOptions& options, std::size_t budget,
                              const Progress& progress, StageClock& clock, int most_elements = 0) {
     const bool asked = options.max_texture_bytes > 0;
     const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
+    // The refinement finds profiles alike, and stores fewer.
+    const std::size_t enough = asked ? budget : budget + budget / 50;
     VectorizeOptions vectorize = vectorize_options(options);
     vectorize.shading = source.shading;
     if (most_elements > 0) vectorize.most_elements = most_elements;
@@ -231,11 +275,10 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
         if (!candidate) return candidate.error();
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
         candidate->most_elements = vectorize.most_elements;
-        if (candidate->bytes() <= budget || attempt == most_attempts || elements <= fewest)
+        if (candidate->bytes() <= enough || attempt == most_attempts || elements <= fewest)
             return measure_candidate(std::move(*candidate), source.map, options, clock);
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
-        const double share = 0.85 * static_cast<double>(budget) / static_cast<double>(candidate->bytes());
-        vectorize.most_elements = std::max(fewest, static_cast<int>(most * share));
+        vectorize.most_elements = std::max(fewest, static_cast<int>(most * share_to_keep(candidate->packed.textures, budget, attempt)));
     }
 }
 
@@ -345,6 +388,7 @@ Result<Candidate> refine_candidate(Candidate candidate, const Source& source, co
     refinement.threads = options.threads;
     refinement.damage = candidate.traced.damage;
     if (is_short_of_bytes(candidate)) refinement.elements = false;
+    refinement.most_splits = std::min(refinement.most_splits, room_for_elements(candidate.packed.textures, budget));
     Vectorized refined = candidate.traced;
     if (!refine_pattern(refined.pattern, source.detail().image, refinement)) return candidate;
     Vectorized unfolded = refined;

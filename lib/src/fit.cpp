@@ -258,6 +258,7 @@ void check_options(std::span<const Vec2> points, const FitOptions& options) {
     assert(options.tolerance > 0.0);
     assert(options.corner_angle > 0.0 && options.corner_angle < std::numbers::pi);
     assert(options.corner_reach >= 0.0);
+    assert(options.blunt_cost >= 0.0);
     assert(options.weights.empty() || options.weights.size() == points.size());
     static_cast<void>(points);
     static_cast<void>(options);

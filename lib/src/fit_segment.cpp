@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kCornerCost = 0.2;  // a corner makes a special cell
+constexpr double kBlunt = 1.3;       // radians; corners that turn more are sharp
 constexpr long kNear = 3;            // candidate ends tried next to the start, and next to the furthest end
 
 class Segmenter {
@@ -196,7 +197,10 @@ double Segmenter::joint_cost(const Piece& before, const Piece& after, bool& corn
     const double gap_at_tip = distance_to_row(points_, at, candidates_[static_cast<std::size_t>(after.a)]) -
                               0.15 * turn * options_.corner_reach - 0.5 * options_.tolerance;
     const double hairpin = turn > 2.8 ? kQuadraticCost : 0.0;
-    const double sharp = kCornerCost + hairpin + far * far +
+    // A blunt corner beside a curve is more often a piece of the curve that bends more.
+    const bool curved = before.quadratic || after.quadratic;
+    const double blunt = curved ? options_.blunt_cost * std::max(0.0, 1.0 - turn / kBlunt) : 0.0;
+    const double sharp = kCornerCost + hairpin + blunt + far * far +
                          cost_of_left_out(std::max(left_out - lost, turn < 1.0 ? gap_at_tip : 0.0)) +
                          (smooth_about(after.a, turn) ? 2.0 * kQuadraticCost : 0.0);
     corner = sharp < smooth;

@@ -374,6 +374,7 @@ std::optional<Error> fault_of(const Pattern& pattern, const Image& map, const Re
     if (map.width < 1 || map.height < 1) return fault("the map to refine against is empty");
     if (!(pattern.size.x > 0.0 && pattern.size.y > 0.0 && pattern.depth > 0.0))
         return fault("pattern size and depth must be above 0");
+    if (options.most_splits < 0) return fault("most_splits is " + std::to_string(options.most_splits) + ", below 0");
     if (options.iterations < 0) return fault("iterations is " + std::to_string(options.iterations) + ", below 0");
     if (!(options.max_shift_texels > 0.0)) return fault("max_shift_texels must be above 0");
     if (!(options.snap >= 0.0 && options.snap <= 0.01)) return fault("snap must lie in [0, 0.01]");
@@ -382,8 +383,9 @@ std::optional<Error> fault_of(const Pattern& pattern, const Image& map, const Re
     return fault_of_paths(pattern);
 }
 
-// Quadratics that leave the map by more than its noise accounts for: too few for the arc they follow.
-std::vector<ElementIndex> strained_quadratics(const State& state) {
+// Quadratics that leave the map by more than its noise accounts for: too few for the arc they follow. At most so many,
+// those that are off by most.
+std::vector<ElementIndex> strained_quadratics(const State& state, int most) {
     struct Sums {
         double squares = 0.0, slopes = 0.0, count = 0.0;
     };
@@ -400,15 +402,19 @@ std::vector<ElementIndex> strained_quadratics(const State& state) {
         sum.count += r.weight;
     }
     const double noise = deviation_of(state.prediction.residuals, false);
-    std::vector<ElementIndex> strained;
+    std::vector<std::pair<double, ElementIndex>> strained;
     for (const auto& [index, sum] : sums) {
         const Element& e = state.pattern.paths[index.first].elements[index.second];
         if (e.kind != ElementKind::quadratic || length(e.p2 - e.p0) < kShortestSplit || sum.count < 10.0) continue;
         const double off = std::sqrt(sum.squares / sum.slopes);
         if (off > std::max(kStrain, kStrainInDeviations * noise * std::sqrt(sum.count / sum.slopes)))
-            strained.push_back({index.first, index.second});
+            strained.push_back({sum.squares, {index.first, index.second}});
     }
-    return strained;
+    std::stable_sort(strained.begin(), strained.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    strained.resize(std::min(strained.size(), static_cast<std::size_t>(most)));
+    std::vector<ElementIndex> worst;
+    for (const auto& [squares, index] : strained) worst.push_back(index);
+    return worst;
 }
 
 // Refines `candidate` and puts it in the place of `best` when its misfit is at most `share` of the best one's.
@@ -490,9 +496,11 @@ Result<State> refine_roughly(const Refinement& refinement, const Pattern& start,
         keep_simpler(refinement, kRough, *best, report);
         for (const double share : kStraighterMayDiffer) keep_straighter(refinement, kRough, share, *best, report);
     }
+    int splits = options.most_splits;
     for (int round = 0; round < kSplitRounds && options.positions && options.elements; ++round) {
-        const std::vector<ElementIndex> strained = strained_quadratics(*best);
+        const std::vector<ElementIndex> strained = strained_quadratics(*best, splits);
         if (strained.empty()) break;
+        splits -= static_cast<int>(strained.size());
         Pattern split = best->pattern;
         split_quadratics(split, strained);
         if (!keep_better(refinement, kRough, split, kSplitMustGain, *best, report)) break;

@@ -11,6 +11,8 @@ constexpr double kHeightShare = 0.03;    // of a profile's relief: what a droppe
 constexpr double kOffsetTexels = 0.2;    // ... or in place; either makes it droppable
 constexpr double kSymmetryShare = 0.05;  // of the relief
 constexpr double kSymmetryTexels = 0.3;
+constexpr double kAlikeTexels = 0.05;    // that points of two profiles may differ by, which are one then ...
+constexpr double kAlikeShare = 0.003;    // ... and of the relief
 constexpr double kCentreTexels = 3.0;    // that a bare step may stand beside its rim
 constexpr double kGroundShare = 0.01;    // of the relief: an end facet that rises less is ground
 
@@ -158,8 +160,32 @@ bool make_symmetric(Pattern& pattern) {
     return changed;
 }
 
-bool simplify_profiles(Pattern& pattern) {
+namespace {
+
+bool are_alike(const Profile& a, const Profile& b) {
+    const double relief = std::max(relief_of(a), relief_of(b));
+    if (a.points.size() != b.points.size() || !a.facets.empty() || !b.facets.empty()) return false;
+    for (std::size_t i = 0; i < a.points.size(); ++i)
+        if (std::abs(a.points[i].b - b.points[i].b) > kAlikeTexels || std::abs(a.points[i].h - b.points[i].h) > kAlikeShare * relief)
+            return false;
+    return true;
+}
+
+}  // namespace
+
+bool share_profiles(Pattern& pattern) {
     bool changed = false;
+    for (Path& path : pattern.paths)
+        for (std::uint32_t i = 0; i < path.profile; ++i) {
+            if (!are_alike(pattern.profiles[i], pattern.profiles[path.profile])) continue;
+            path.profile = i;
+            changed = true;
+        }
+    return changed;
+}
+
+bool simplify_profiles(Pattern& pattern) {
+    bool changed = share_profiles(pattern);
     for (std::size_t i = 0; i < pattern.profiles.size(); ++i) {
         changed |= simplify(pattern.profiles[i]);
         changed |= centre_rims(pattern, i);

@@ -8,7 +8,10 @@ namespace burin::refinement {
 // Makes profiles that are symmetric within a few percent exactly so. Returns whether any changed. Lengths in texels.
 bool make_symmetric(Pattern& pattern);
 
-// Drops points that hardly bend a profile, and end facets that hardly leave the ground. Returns whether any was dropped.
+// Profiles that differ next to nothing become one. Returns whether any did.
+bool share_profiles(Pattern& pattern);
+
+// Shares profiles, drops points that hardly bend a profile, and end facets that hardly leave the ground. Returns whether any changed.
 bool simplify_profiles(Pattern& pattern);
 
 }  // namespace burin::refinement

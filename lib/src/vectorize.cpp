@@ -107,13 +107,15 @@ void find_features(const Image& source, Traced& traced) {
     drop_crumbs(spots, traced.lines, wide);
     for (Chain& spot : spots) traced.lines.push_back(std::move(spot));
     if (margin > 0) traced.lines = clip_chains(traced.lines, margin, lattice);
-    const Image flattened = margin > 0 ? crop_margin(map, margin, lattice) : std::move(map);
+    Image flattened = margin > 0 ? crop_margin(map, margin, lattice) : std::move(map);
     map = {};
+    std::vector<std::uint8_t> flat = find_flat(flattened, lattice, noise);
+    traced.regions = segment_regions(flattened, lattice, noise, kLeastRegionShare * energy, flat);
+    if (return_islands(source, flattened, traced.lines, lattice, traced.regions, flat, noise))
+        traced.regions = segment_regions(flattened, lattice, noise, kLeastRegionShare * energy, flat);
     for (int i = 0; i < lattice.size(); ++i)
         if (flattened.texels[i] != source.texels[i]) traced.changed.push_back({i, flattened.texels[i]});
     traced.changed.shrink_to_fit();
-    const std::vector<std::uint8_t> flat = find_flat(flattened, lattice, noise);
-    traced.regions = segment_regions(flattened, lattice, noise, kLeastRegionShare * energy, flat);
     traced.steps = trace_steps(flattened, {}, lattice, traced.regions);
 }
 
@@ -128,43 +130,89 @@ std::vector<FittedChain> join(std::vector<FittedChain> a, std::vector<FittedChai
     return a;
 }
 
+// All lines, and the steps between the regions that are left, to be fitted.
+class Fitting {
+  public:
+    Fitting(const Traced& traced, const Image& map, Regions& regions, int threads)
+        : traced_(traced), map_(map), regions_(regions), threads_(threads) {
+        std::size_t points = 0;
+        for (const std::vector<Chain>* chains : {&traced.lines, &traced.steps})
+            for (const Chain& chain : *chains) points += chain.points.size();
+        is_quick_ = points <= kFewPoints;
+    }
+
+    // Gives up the regions that hold less than a share of the map's sum of squares.
+    void merge(double share, bool shading) {
+        const std::size_t before = regions_.level.size();
+        merge_regions({traced_.damage, share * traced_.energy, shading}, regions_);
+        if (regions_.level.size() == before && (merged_ || shading)) return;
+        merged_ = true;
+        fewer_steps_ = trace_steps(map_, traced_.changed, traced_.lattice, regions_);
+    }
+    // Polylines are fast and tell how many elements to expect.
+    void foretell(double tolerance) {
+        lines_ = foretell_elements(traced_.lines, tolerance);
+        steps_ = foretell_elements(steps(), tolerance);
+    }
+    double expected_steps() const { return ratio_ * static_cast<double>(steps_); }
+    double expected() const { return ratio_ * static_cast<double>(lines_ + steps_); }
+    // Whether curves can be fitted to see how many there are; and whether they were.
+    bool is_quick() const { return is_quick_; }
+    bool is_sure() const { return is_sure_; }
+    std::vector<FittedChain> fit(double tolerance) {
+        std::vector<FittedChain> fitted = join(fit_chains(traced_.lines, map_, traced_.lattice, tolerance, threads_),
+                                               fit_chains(steps(), map_, traced_.lattice, tolerance, threads_));
+        is_sure_ = true;
+        ratio_ = static_cast<double>(count_elements(fitted)) / static_cast<double>(std::max<std::size_t>(1, lines_ + steps_));
+        return fitted;
+    }
+
+  private:
+    static constexpr std::size_t kFewPoints = 30000;
+    const std::vector<Chain>& steps() const { return merged_ ? fewer_steps_ : traced_.steps; }
+
+    const Traced& traced_;
+    const Image& map_;
+    Regions& regions_;
+    int threads_;
+    bool is_quick_ = false, is_sure_ = false, merged_ = false;
+    std::vector<Chain> fewer_steps_;
+    std::size_t lines_ = 0, steps_ = 0;
+    double ratio_ = 1.0;  // of elements fitted to those foretold
+};
+
 // A curve that follows the grain of a ragged edge costs an element every few texels: first the fit is loosened, then
 // the least regions are given up, until the steps leave room for lines.
 std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, const VectorizeOptions& options,
                                     std::size_t budget, Regions& regions, Vectorized& result, int threads) {
-    const Lattice& lattice = traced.lattice;
-    const double energy = traced.energy;
+    constexpr double kLooser = 1.4;
+    Fitting fitting(traced, map, regions, threads);
+    const bool asked = options.most_elements > 0;  // a limit that was asked for goes before beauty
+    const double loosest = (asked ? 1.7 : 1.0) * std::max(1.2, 0.0012 * std::min(traced.lattice.width, traced.lattice.height));
+    // What is foretold from polylines alone may be too many.
+    const double slack = 1.25 * static_cast<double>(budget), exact = asked ? static_cast<double>(budget) : slack;
+    const auto most = [&] { return fitting.is_sure() ? exact : slack; };
     double share = kLeastRegionShare;
-    const double asked = options.most_elements > 0 ? 1.7 : 1.0;  // a limit that was asked for goes before beauty
-    const double loosest = asked * std::max(1.2, 0.0012 * std::min(lattice.width, lattice.height));
-    result.tolerance = options.tolerance > 0.0 ? options.tolerance : kUsualTolerance;
-    // Polylines are fast and tell how many elements to expect; the curves, which need fewer, are fitted once at the end.
-    const std::size_t most = budget * 5 / 4;
-    std::size_t lines = foretell_elements(traced.lines, result.tolerance), steps = foretell_elements(traced.steps, result.tolerance);
-    std::vector<Chain> fewer_steps;
     result.shaded = options.shading && std::any_of(regions.borders.begin(), regions.borders.end(),
                                                    [](const auto& border) { return border.second.is_ramp(); });
-    if (!options.shading) {
-        merge_regions({traced.damage, share * energy, false}, regions);
-        fewer_steps = trace_steps(map, traced.changed, lattice, regions);
-        steps = foretell_elements(fewer_steps, result.tolerance);
+    if (!options.shading) fitting.merge(share, false);
+    for (result.tolerance = options.tolerance > 0.0 ? options.tolerance : kUsualTolerance;; result.tolerance *= kLooser) {
+        fitting.foretell(result.tolerance);
+        if (fitting.expected() <= most()) break;
+        if (fitting.is_quick() && fitting.expected() < 2.0 * slack) {
+            std::vector<FittedChain> fitted = fitting.fit(result.tolerance);
+            if (static_cast<double>(count_elements(fitted)) <= exact) return fitted;
+        }
+        if (options.tolerance > 0.0 || result.tolerance * kLooser > loosest) break;
     }
-    while (options.tolerance == 0.0 && lines + steps > most && result.tolerance * 1.4 <= loosest) {
-        result.tolerance *= 1.4;
-        lines = foretell_elements(traced.lines, result.tolerance);
-        steps = foretell_elements(options.shading ? traced.steps : fewer_steps, result.tolerance);
-    }
-    for (int round = 0; round < 8 && steps > most * 3 / 4; ++round) {
+    for (int round = 0; round < 8; ++round) {
+        const double lines = fitting.expected() - fitting.expected_steps();
+        if (fitting.expected_steps() <= most() - std::min(lines, 0.25 * most())) break;
         share *= 2.0;
-        const std::size_t before = regions.level.size();
-        merge_regions({traced.damage, share * energy, options.shading}, regions);
-        if (regions.level.size() == before) continue;
-        fewer_steps = trace_steps(map, traced.changed, lattice, regions);
-        steps = foretell_elements(fewer_steps, result.tolerance);
+        fitting.merge(share, options.shading);
+        fitting.foretell(result.tolerance);
     }
-    const bool merged = !options.shading || regions.level.size() < traced.regions.level.size();
-    return join(fit_chains(traced.lines, map, lattice, result.tolerance, threads),
-                fit_chains(merged ? fewer_steps : traced.steps, map, lattice, result.tolerance, threads));
+    return fitting.fit(result.tolerance);
 }
 
 // Lines that explain little per element go, the least useful first, until the rest is within the budget. Steps hold the

@@ -24,6 +24,7 @@ FitOptions fit_options(const Chain& chain, double tolerance) {
     options.closed = chain.closed;
     options.period = chain.winding;
     options.corner_reach = chain.kind == ChainKind::step ? 1.2 : std::max(1.0, chain.half_width);
+    if (chain.kind == ChainKind::step) options.blunt_cost = 0.8;
     options.pin_start = chain.start_tie != EndTie::free;
     options.pin_end = chain.end_tie != EndTie::free;
     return options;

@@ -243,6 +243,12 @@ struct MergeOptions {
 };
 void merge_regions(const MergeOptions& options, Regions& regions);
 
+// Lines of the map that are plateaus after all, and short ones that it does not show, are put back into the map without
+// lines; `flat` (see find_flat) is that of the new map, and what is level of the plateaus is marked in it. True when there are
+// any: then the regions are others.
+bool return_islands(const Image& source, Image& flattened, std::vector<Chain>& lines, const Lattice& lattice,
+                    const Regions& regions, std::vector<std::uint8_t>& flat, double noise);
+
 // The step contours between regions of the map, but for `changed`.
 std::vector<Chain> trace_steps(const Image& map, const Changed& changed, const Lattice& lattice, const Regions& regions);
 

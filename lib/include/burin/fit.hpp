@@ -37,6 +37,11 @@ struct FitOptions {
     // sharp.
     double corner_angle = 0.45;
 
+    // What a corner that hardly turns costs beside a curve, in elements, 0 or more; less the more it turns. The
+    // rim of a plateau bends more often than it has such a corner; a centre line that cuts its corners may have
+    // it.
+    double blunt_cost = 0.0;
+
     // Points closer than this to a corner are not looked at, 0 or more: a raster rounds a right-angled corner
     // within about one texel of its tip. For a sharper corner of inner angle a the distance grows by the
     // factor 1 / tan(a / 2), up to 5, since the tip of a spike narrower than a texel is lost in the raster. 0

@@ -29,6 +29,7 @@ struct RefineOptions {
     // Polylines that go round become quadratics before the fit; quadratics that the map shows to be too few for their
     // arc (off by more than 0.02 texels and the noise) are split after it.
     bool elements = true;
+    int most_splits = 1 << 30;        // of quadratics; those that leave the map by most come first. >= 0
     bool scales = true;               // width and height scales, of paths that have any other than 1
     // Ends nearer than this to another path's line lie on it and stay on it; metres as a fraction of the larger side,
     // as ResolveOptions::snap. Range [0, 0.01].
