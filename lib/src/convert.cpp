@@ -1,12 +1,9 @@
-#include <burin/convert.hpp>
+#include "convert_internal.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <functional>
-#include <memory>
-#include <stdexcept>
+#include <optional>
 
 #include <burin/compare.hpp>
 #include <burin/reconstruct.hpp>
@@ -14,319 +11,10 @@
 #include "resolve_curve.hpp"
 
 namespace burin {
+using namespace converting;
 namespace {
 
-// Tells the user which stage runs and sums up the time of each.
-class StageClock {
-  public:
-    using Seconds = std::vector<std::pair<std::string, double>>;
-    StageClock(const Progress& progress, Seconds& seconds) : progress_(progress), seconds_(seconds) {}
-
-    // False when the user wants to stop.
-    bool begin(const char* stage) {
-        end();
-        stage_ = stage;
-        begun_ = std::chrono::steady_clock::now();
-        return !progress_ || progress_(stage, 0.0);
-    }
-    void end() {
-        if (!stage_) return;
-        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun_;
-        // A stage that runs again, for a smaller budget or after the refinement, adds to its time.
-        const auto known = std::find_if(seconds_.begin(), seconds_.end(), [&](const auto& s) { return s.first == stage_; });
-        if (known == seconds_.end())
-            seconds_.emplace_back(stage_, spent.count());
-        else
-            known->second += spent.count();
-        if (progress_) progress_(stage_, 1.0);
-        stage_ = nullptr;
-    }
-
-  private:
-    const Progress& progress_;
-    Seconds& seconds_;
-    const char* stage_ = nullptr;
-    std::chrono::steady_clock::time_point begun_;
-};
-
-Error stopped() { return {ErrorCode::invalid_argument, "stopped on request"}; }
-
-// Counts what is stored, and gives the places of the paths it came from.
-std::vector<std::uint32_t> count_elements(const ResolvedPattern& pattern, double texels_per_metre, ConvertStats& stats) {
-    std::vector<std::uint32_t> paths;
-    for (const ResolvedElement& element : pattern.elements) {
-        const bool line = element.element.kind == ElementKind::line;
-        (line ? stats.lines : stats.quadratics) += 1;
-        stats.path_length_texels += curve::arc_length(element.element) * texels_per_metre;
-        paths.push_back(element.path);
-    }
-    std::sort(paths.begin(), paths.end());
-    paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
-    stats.paths = static_cast<int>(paths.size());
-    stats.profiles = static_cast<int>(pattern.profiles.size());
-    return paths;
-}
-
-// Maps of lines and plateaus come above 0.5, rock and terrain stay below 0.2.
-constexpr double kPathLikeShare = 0.35;
-// A map whose paths explain less than this has more of them than the budget takes, or other things.
-constexpr double kClearShare = 0.6;
 constexpr double kAccidentShare = 0.1;
-
-// The heights of the textures as they are stored.
-Result<Image> reconstruct(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail,
-                          const ReconstructOptions& options) {
-    auto heights = reconstruct_heights(textures, detail, map.image.width, map.image.height, options);
-    // What burin packed breaks the format: a bug, whatever the map.
-    if (!heights && heights.error().code == ErrorCode::invalid_input)
-        throw std::logic_error("the packed pattern breaks the format: " + heights.error().message);
-    return heights;
-}
-
-// Of a map that shows as much in fewer texels, a texel tells as much from fewer samples.
-int samples_for(const ConvertStats& stats, int usual) { return std::max(std::min(usual, 2), usual >> stats.halvings); }
-
-Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
-               ConvertStats& stats) {
-    const auto heights = reconstruct(map, textures, detail, {.samples = samples_for(stats, ReconstructOptions{}.samples), .threads = threads});
-    if (!heights) return heights.error();
-    const Comparison figures = compare_heights(*heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp, threads);
-    stats.explained = figures.explained;
-    stats.path_like = figures.explained >= kPathLikeShare;
-    stats.rms = figures.rms;
-    stats.p999 = figures.p999;
-    stats.p999_without_smooth = figures.p999_without_smooth;
-    stats.max = figures.max;
-    return Done{};
-}
-
-struct Packed {
-    PackedTextures textures;
-    PathDetail detail;
-    std::vector<std::uint32_t> paths;  // of the pattern, that are stored
-};
-
-Result<PackedTextures> grid_and_pack(const ResolvedPattern& pattern, const GridOptions& options, const PackOptions& pack,
-                                     StageClock& clock) {
-    if (!clock.begin("grid")) return stopped();
-    const auto grid = build_grid(pattern, options);
-    if (!grid) return grid.error();
-    if (!clock.begin("pack")) return stopped();
-    return pack_textures(pattern, *grid, pack);
-}
-
-std::size_t bytes_of(const PackedTextures& textures) {
-    return (textures.grid.size() + textures.data.size()) * sizeof(std::uint32_t);
-}
-
-// Of elements and their styles, without cells and lists.
-std::size_t element_bytes(const PackedTextures& textures) {
-    return textures.data.size() * sizeof(std::uint32_t) - static_cast<std::size_t>(textures.sections.list_texels) * 16;
-}
-
-// What the budget leaves to cells and lists.
-std::size_t room_beside(const PackedTextures& textures, std::size_t budget) {
-    return budget - std::min(budget, element_bytes(textures));
-}
-
-// Larger cells make rays slower, but fewer elements lose something: cells and lists may be this small a share of the budget.
-constexpr std::size_t kLeastGrid = 5;
-
-// Quadratics that there is room for, with their place in the lists.
-int room_for_elements(const PackedTextures& textures, std::size_t budget) {
-    constexpr std::size_t kQuadraticBytes = 38;
-    const std::size_t room = room_beside(textures, budget);
-    return static_cast<int>((room - std::min(room, budget / kLeastGrid)) / kQuadraticBytes);
-}
-
-// Resolve, grid, pack.
-Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const ConvertOptions& options,
-                            std::size_t budget, StageClock& clock, ConvertStats& stats) {
-    if (!clock.begin("resolve")) return stopped();
-    const auto resolved = resolve_pattern(pattern, options.resolve);
-    if (!resolved) return resolved.error();
-    stats.paths = stats.lines = stats.quadratics = 0;
-    stats.path_length_texels = 0.0;
-    std::vector<std::uint32_t> paths = count_elements(*resolved, map.image.width / resolved->size.x, stats);
-    stats.dropped_paths = resolved->stats.dropped_paths;
-    stats.repeat = resolved->wrap == Wrap::repeat;
-
-    GridOptions grid = options.grid;
-    grid.threads = options.threads;
-    const bool chosen = grid.max_bytes > 0 || grid.cell_size > 0.0;
-    if (grid.max_bytes == 0) grid.max_bytes = budget / 2;
-    auto textures = grid_and_pack(*resolved, grid, options.pack, clock);
-    if (textures && !chosen && bytes_of(*textures) > budget) {
-        grid.max_bytes = std::max(budget / kLeastGrid, room_beside(*textures, budget));
-        textures = grid_and_pack(*resolved, grid, options.pack, clock);
-    }
-    if (!textures) return textures.error();
-    stats.cells = textures->grid_width * textures->grid_height;
-    stats.grid_bytes = textures->grid.size() * sizeof(std::uint32_t);
-    stats.data_bytes = textures->data.size() * sizeof(std::uint32_t);
-    PathDetail detail = describe_pattern(*resolved, *textures);
-    detail.tex_coord = options.attach.tex_coord;
-    return Packed{std::move(*textures), std::move(detail), std::move(paths)};
-}
-
-// A sixteenth of the map's 8-bit size; above 1024 x 1024 it stays at 63 KiB until that is a 128th, since a map
-// drawn at twice the resolution does not hold twice the paths. A small map may be as rich as one of 512 x 512.
-std::size_t default_budget(std::size_t texels) {
-    constexpr std::size_t kLeast = 16 * 1024, kUsual = 63 * 1024;
-    return std::max(kLeast, std::min(texels / 16, std::max(kUsual, texels / 128)));
-}
-
-// A pattern, its textures, and what they were measured to explain.
-struct Candidate {
-    Vectorized traced;
-    Packed packed;
-    ConvertStats stats;  // counts and figures of this candidate
-    int most_elements = 0;  // that it took to keep within the budget; 0: all there were
-    std::size_t bytes() const { return stats.grid_bytes + stats.data_bytes; }
-};
-
-Result<Candidate> pack_candidate(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
-                                 std::size_t budget, StageClock& clock) {
-    Candidate candidate;
-    auto packed = pack_pattern(traced.pattern, map, options, budget, clock, candidate.stats);
-    if (!packed) return packed.error();
-    candidate.packed = std::move(*packed);
-    candidate.traced = std::move(traced);
-    return candidate;
-}
-
-Result<Candidate> measure_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options, StageClock& clock) {
-    if (!clock.begin("measure")) return stopped();
-    const Packed& packed = candidate.packed;
-    const Status measured = measure(map, packed.textures, packed.detail, options.threads, candidate.stats);
-    if (!measured) return measured.error();
-    return candidate;
-}
-
-Result<Candidate> pack_and_measure(Vectorized traced, const HeightMap& map, const ConvertOptions& options,
-                                   std::size_t budget, StageClock& clock) {
-    auto candidate = pack_candidate(std::move(traced), map, options, budget, clock);
-    if (!candidate) return candidate;
-    return measure_candidate(std::move(*candidate), map, options, clock);
-}
-
-VectorizeOptions vectorize_options(const ConvertOptions& options) {
-    VectorizeOptions vectorize = options.vectorize;
-    vectorize.threads = options.threads;
-    return vectorize;
-}
-
-// A map, and what of it was traced: the map itself, or the map without its soft ground.
-struct Source {
-    const HeightMap& map;
-    std::shared_ptr<const HeightMap> separated;  // null: the map itself
-    TracedMap traced;
-    bool shading = true;  // see VectorizeOptions
-    const HeightMap& detail() const { return separated ? *separated : map; }
-};
-
-Result<Source> trace_source(const HeightMap& map, std::shared_ptr<const HeightMap> separated, const ConvertOptions& options,
-                            const Progress& progress, StageClock& clock) {
-    if (!clock.begin("vectorize")) return stopped();
-    Source source{map, std::move(separated), {}};
-    auto traced = trace_map(source.detail(), vectorize_options(options), progress);
-    if (!traced) return traced.error();
-    source.traced = std::move(*traced);
-    return source;
-}
-
-int count_elements(const Pattern& pattern) {
-    std::size_t sum = 0;
-    for (const Path& path : pattern.paths) sum += path.elements.size();
-    return static_cast<int>(sum);
-}
-
-// Of elements, so that the textures keep to the budget: what is too much goes at the elements' cost, since cells and lists are
-// as small already as they may be.
-double share_to_keep(const PackedTextures& textures, std::size_t budget, int attempt) {
-    constexpr double kLeast = 0.2;
-    const double margin = std::max(0.5, 1.0 - 0.03 * attempt * attempt);  // what did not suffice once takes more
-    const double bytes = static_cast<double>(bytes_of(textures)), excess = bytes - static_cast<double>(budget);
-    return margin * std::max(kLeast, 1.0 - excess / static_cast<double>(element_bytes(textures)));
-}
-
-// Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
-// `most_elements`: as many as kept to it when the same map was traced in another way, or 0.
-Result<Candidate> fit_within(const Source& source, const ConvertOptions& options, std::size_t budget,
-                             const Progress& progress, StageClock& clock, int most_elements = 0) {
-    const bool asked = options.max_texture_bytes > 0;
-    const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
-    // The refinement finds profiles alike, and stores fewer.
-    const std::size_t enough = asked ? budget : budget + budget / 50;
-    VectorizeOptions vectorize = vectorize_options(options);
-    vectorize.shading = source.shading;
-    if (most_elements > 0) vectorize.most_elements = most_elements;
-    for (int attempt = 1;; ++attempt) {
-        if (!clock.begin("vectorize")) return stopped();
-        auto fitted = fit_traced_map(source.traced, source.detail(), vectorize, progress);
-        if (!fitted) return fitted.error();
-        const int traced = count_elements(fitted->pattern);
-        auto candidate = pack_candidate(std::move(*fitted), source.map, options, budget, clock);
-        // Where too many elements act at one place, fewer of them may still be stored.
-        if (!candidate && candidate.error().code == ErrorCode::limit_exceeded && attempt < most_attempts && traced > fewest) {
-            vectorize.most_elements = std::max(fewest, traced / 2);
-            continue;
-        }
-        if (!candidate) return candidate.error();
-        const int elements = candidate->stats.lines + candidate->stats.quadratics;
-        candidate->most_elements = vectorize.most_elements;
-        if (candidate->bytes() <= enough || attempt == most_attempts || elements <= fewest)
-            return measure_candidate(std::move(*candidate), source.map, options, clock);
-        const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
-        vectorize.most_elements = std::max(fewest, static_cast<int>(most * share_to_keep(candidate->packed.textures, budget, attempt)));
-    }
-}
-
-struct Start {
-    Source source;
-    Candidate candidate;
-};
-
-// With steps along soft ground, or without where they explain too little for what they cost.
-Result<Start> start_from(Source source, const ConvertOptions& options, std::size_t budget, const Progress& progress,
-                         StageClock& clock, int most_elements = 0) {
-    constexpr double kMustGain = 0.005;
-    auto shaded = fit_within(source, options, budget, progress, clock, most_elements);
-    if (!shaded) return shaded.error();
-    if (!shaded->traced.shaded) return Start{std::move(source), std::move(*shaded)};
-    source.shading = false;
-    auto plain = fit_within(source, options, budget, progress, clock, shaded->most_elements);
-    if (!plain) return plain.error();
-    source.shading = shaded->stats.explained > plain->stats.explained + kMustGain;
-    Candidate& better = source.shading ? *shaded : *plain;
-    return Start{std::move(source), std::move(better)};
-}
-
-// The map as it is, or without its soft ground where that explains more: whether a ramp is ground or the side of a wide
-// bevel shows when its paths are drawn.
-Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
-                         const Progress& progress, StageClock& clock) {
-    constexpr double kLeastDeviation = 0.004, kMustGain = 0.002;
-    auto source = trace_source(map, nullptr, options, progress, clock);
-    if (!source) return source.error();
-    auto start = start_from(std::move(*source), options, budget, progress, clock);
-    if (!start) return start.error();
-    // Where the budget is what leaves most of the map unexplained, level ground would not help.
-    if (start->candidate.most_elements > 0 && start->candidate.stats.explained < kClearShare) return start;
-    if (!clock.begin("vectorize")) return stopped();
-    // Only a bound on the error asks for closer paths later, and what was traced takes room.
-    if (options.max_error <= 0.0) start->source.traced = {};
-    auto separated = separate_ground(map, vectorize_options(options));
-    if (!separated) return separated.error();
-    if (separated->deviation < kLeastDeviation) return start;
-    auto detail = std::make_shared<const HeightMap>(std::move(separated->detail));
-    auto other_source = trace_source(map, std::move(detail), options, progress, clock);
-    if (!other_source) return other_source.error();
-    auto other = start_from(std::move(*other_source), options, budget, progress, clock, start->candidate.most_elements);
-    if (!other) return other.error();
-    const bool gains = other->candidate.stats.explained >= start->candidate.stats.explained + kMustGain;
-    return gains ? std::move(other) : std::move(start);
-}
 
 // A step of the refinement looks at the texels within reach of every element: wide profiles on long paths would take
 // long and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a
@@ -376,31 +64,49 @@ Pattern without_folds(Pattern pattern, double texel) {
     return pattern;
 }
 
-// Least squares against the map. What it makes worse, because the traced structure is not that of the map, is not kept.
-Result<Candidate> refine_candidate(Candidate candidate, const Source& source, const ConvertOptions& options,
-                                   std::size_t budget, StageClock& clock) {
-    const HeightMap& map = source.map;
-    candidate.stats.unrefined = reason_not_to_refine(candidate, map, options);
-    if (candidate.stats.unrefined != Unrefined::no) return candidate;
-    if (!clock.begin("refine")) return stopped();
-    candidate.stats.unrefined = Unrefined::no_gain;
+RefineOptions refine_options(const Candidate& candidate, const ConvertOptions& options, std::size_t budget) {
     RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
     refinement.damage = candidate.traced.damage;
     if (is_short_of_bytes(candidate)) refinement.elements = false;
     refinement.most_splits = std::min(refinement.most_splits, room_for_elements(candidate.packed.textures, budget));
+    return refinement;
+}
+
+// What the refinement made worse, because the traced structure is not that of the map, is not kept: nothing then.
+std::optional<Candidate> refined_once(const Candidate& candidate, const Source& source, const ConvertOptions& options,
+                                      const RefineOptions& refinement, std::size_t budget, StageClock& clock) {
+    const HeightMap& map = source.map;
+    const auto is_better = [&](const Result<Candidate>& other) {
+        return other && other->stats.explained >= candidate.stats.explained &&
+               (options.max_texture_bytes == 0 || other->bytes() <= budget);
+    };
     Vectorized refined = candidate.traced;
-    if (!refine_pattern(refined.pattern, source.detail().image, refinement)) return candidate;
+    if (!clock.begin("refine") || !refine_pattern(refined.pattern, source.detail().image, refinement)) return std::nullopt;
     Vectorized unfolded = refined;
     auto better = pack_and_measure(std::move(refined), map, options, budget, clock);
-    if (!better || better->stats.explained < candidate.stats.explained) {
+    if (!is_better(better)) {
         const double texel = unfolded.pattern.size.x / map.image.width;
         unfolded.pattern = without_folds(std::move(unfolded.pattern), texel);
         better = pack_and_measure(std::move(unfolded), map, options, budget, clock);
     }
-    if (!better || better->stats.explained < candidate.stats.explained) return candidate;
-    if (options.max_texture_bytes > 0 && better->bytes() > budget) return candidate;
-    return better;
+    if (!is_better(better)) return std::nullopt;
+    return std::move(*better);
+}
+
+// Least squares against the map; with the profiles as they were measured where fitting them as well does harm.
+Result<Candidate> refine_candidate(Candidate candidate, const Source& source, const ConvertOptions& options,
+                                   std::size_t budget, StageClock& clock) {
+    candidate.stats.unrefined = reason_not_to_refine(candidate, source.map, options);
+    if (candidate.stats.unrefined != Unrefined::no) return candidate;
+    candidate.stats.unrefined = Unrefined::no_gain;
+    RefineOptions refinement = refine_options(candidate, options, budget);
+    std::optional<Candidate> better = refined_once(candidate, source, options, refinement, budget, clock);
+    if (!better && refinement.profiles) {
+        refinement.profiles = false;
+        better = refined_once(candidate, source, options, refinement, budget, clock);
+    }
+    return better ? std::move(*better) : std::move(candidate);
 }
 
 // Paths that explain next to nothing are accidents of rock or noise: the fallback maps show the surface better alone.
@@ -500,6 +206,13 @@ Result<Candidate> within_bounds(const HeightMap& map, const ConvertOptions& opti
     if (bytes_bound && first.bytes() > budget) return refuse_bytes(map, options, first.bytes(), progress, clock);
     if (options.max_error <= 0.0 || first.stats.p999 <= options.max_error) return std::move(start->candidate);
     return closer_within(start->source, options, std::move(start->candidate), progress, clock);
+}
+
+// A sixteenth of the map's 8-bit size; above 1024 x 1024 it stays at 63 KiB until that is a 128th, since a map
+// drawn at twice the resolution does not hold twice the paths. A small map may be as rich as one of 512 x 512.
+std::size_t default_budget(std::size_t texels) {
+    constexpr std::size_t kLeast = 16 * 1024, kUsual = 63 * 1024;
+    return std::max(kLeast, std::min(texels / 16, std::max(kUsual, texels / 128)));
 }
 
 // The candidate of a coarser map, with the figures that it reaches against the map itself.

@@ -26,6 +26,7 @@ constexpr double kLeastThreshold = 0.004;  // map scale: one step of an 8-bit ma
 constexpr double kLeastDeviation = 1e-5;    // map scale: rounding of a 16-bit map
 constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
+constexpr double kSlower = 0.3;              // damping below it hardly shortens a step
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
 constexpr double kStraighterMayDiffer[] = {0.03, 0.01};  // of a profile's relief, root mean square
 constexpr double kSurelyDamage = 2.0, kNearDamage = 9.0;  // of the misfit that the map's damage alone makes
@@ -35,8 +36,8 @@ constexpr double kRoughThreshold = 0.05;    // Huber's, before anything is fitte
 constexpr double kTidyMayCost = 1.05;        // of the misfit, before ends are settled
 constexpr int kSettleRounds = 4;
 constexpr int kSplitRounds = 2;
-constexpr double kSplitMustGain = 0.95;      // of the misfit
-constexpr double kStrain = 0.02;             // texels, root mean square: an arc that is farther off is split
+constexpr double kSplitMustGain = 0.3;       // of the misfit around a quadratic
+constexpr double kStrain = 0.012;            // texels, root mean square: an arc that is farther off is split
 constexpr double kStrainInDeviations = 1.6;  // of what the map's noise alone makes of it
 constexpr double kShortestSplit = 6.0;       // texels
 constexpr double kTorn = 0.1;                // map scale
@@ -157,6 +158,17 @@ class Refinement {
 
     double damage() const { return damage_; }
 
+    // How much less the second prediction is off at each texel.
+    std::vector<float> gains_of(const Prediction& before, const Prediction& after, double threshold) const {
+        std::vector<float> gains(map_.texels.size(), 0.0f);
+        const auto add = [&](const std::vector<Residual>& residuals, double sign) {
+            for (const Residual& r : residuals) gains[r.texel] += static_cast<float>(sign * robust_cost(r, threshold));
+        };
+        add(before.residuals, 1.0), add(before.far, 1.0);
+        add(after.residuals, -1.0), add(after.far, -1.0);
+        return gains;
+    }
+
     // The model's map alone.
     Result<Prediction> look(const Pattern& pattern, const Model& model) const {
         const Result<ResolvedPattern> resolved = resolve_pattern(pattern, resolve_options());
@@ -176,7 +188,7 @@ class Refinement {
         const int most = report.unknowns > 0 ? std::min({model.steps, options_.iterations, affordable}) : 0;
         int refused = 0;  // steps in a row
         for (int i = 0; i < most && refused < kMostRefused; ++i) {
-            const double gain = advance(*best, model, refused > 0);
+            const double gain = advance(*best, model, refused > 0, affordable > 2 * kFewestSteps ? 2 : 1);
             ++report.iterations;
             refused = gain > 0.0 ? 0 : refused + 1;
             if (gain > 0.0 && gain < model.settled) break;
@@ -247,48 +259,61 @@ class Refinement {
     }
 
     // One step. Returns the share of the cost that it gained, not above 0 when it was refused.
-    double advance(State& best, const Model& model, bool refused_before) const {
+    double advance(State& best, const Model& model, bool refused_before, int attempts) const {
         const double deviation = deviation_of(best.prediction.residuals);
         NormalEquations equations(best.parameters.count(), best.elements, best.prediction);
         equations.add_springs(best.parameters.stiffness(), deviation * deviation, best.parameters.moved());
-        State next{best.pattern, best.parameters, {}, {}, best.damping, {}};
-        const Result<ResolvedPattern> resolved = take_step(best, equations, next);
-        if (!resolved) return 0.0;
-        predict(next, *resolved, model, threshold_of(deviation));
-        const double before = cost_of(best, deviation), after = cost_of(next, deviation);
-        adapt_damping(best, next, threshold_of(deviation), refused_before, after < before);
-        if (after < before)
-            best = std::move(next);
-        else
-            best.damping = std::move(next.damping);
-        return before > 0.0 ? (before - after) / before : 0.0;
+        const double before = cost_of(best, deviation);
+        std::vector<std::uint8_t> resting(best.damping.size(), 0);
+        std::vector<double> adapted = best.damping;
+        double gain = 0.0;
+        // Where the model leaps does not keep all the rest from moving.
+        for (int attempt = 0; attempt < attempts && gain <= 0.0; ++attempt) {
+            State next{best.pattern, best.parameters, {}, {}, best.damping, {}};
+            const Result<ResolvedPattern> resolved = take_step(best, equations, resting, next);
+            if (!resolved) return 0.0;
+            predict(next, *resolved, model, threshold_of(deviation));
+            gain = before > 0.0 ? (before - cost_of(next, deviation)) / before : 0.0;
+            if (attempt == 0) {
+                resting = adapt_damping(best, next, threshold_of(deviation), refused_before, gain > 0.0);
+                adapted = next.damping;
+            }
+            if (gain > 0.0) best = std::move(next);
+        }
+        best.damping = std::move(adapted);
+        return gain;
     }
 
-    // Unknowns that made their texels worse are damped more, the others less: a place where the model leaps does not keep
-    // all the rest from moving.
-    void adapt_damping(const State& from, State& next, double threshold, bool refused_before, bool accepted) const {
+    // Unknowns that made their texels worse are damped more, the others less. Returns 1 for the former.
+    std::vector<std::uint8_t> adapt_damping(const State& from, State& next, double threshold, bool refused_before,
+                                            bool accepted) const {
         const std::vector<float> gains = gains_of(from.prediction, next.prediction, threshold);
         std::vector<double> of_elements(from.elements.size(), 0.0), of_unknowns(next.damping.size(), 0.0);
         for (const Residual& r : from.prediction.residuals)
             if (r.element >= 0) of_elements[r.element] += gains[r.texel];
         for (std::size_t e = 0; e < of_elements.size(); ++e)
             for (const int unknown : from.elements[e].unknowns) of_unknowns[unknown] += of_elements[e];
+        std::vector<std::uint8_t> worse(of_unknowns.size(), 0);
         for (std::size_t i = 0; i < of_unknowns.size(); ++i) {
             double& damping = next.damping[i];
+            worse[i] = of_unknowns[i] < 0.0;
             // Refused twice: what leaps may lie where no texel is an element's own, so that all of it goes slower.
-            if (of_unknowns[i] < 0.0 || (!accepted && refused_before)) damping = std::max(10.0 * damping, 1e-2);
+            if (worse[i] || (!accepted && refused_before)) damping = std::max(10.0 * damping, kSlower);
             // What was too little damping a step ago is so still.
-            if (of_unknowns[i] >= 0.0 && accepted && !refused_before) damping = std::max(0.1 * damping, 1e-6);
+            if (!worse[i] && accepted && !refused_before) damping = std::max(0.1 * damping, 1e-6);
         }
+        return worse;
     }
 
-    // Moves `next` on from `from`. Paths that would then resolve no more, since a step path of theirs crosses another, stay
+    // Moves `next` on from `from`, all but what rests. Paths that would then resolve no more, since a step path of theirs crosses another, stay
     // where they are from now on: shorter steps of everything else would not help them.
-    Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, State& next) const {
+    Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, std::vector<std::uint8_t> resting,
+                                      State& next) const {
         for (int round = 0;; ++round) {
             next.pattern = from.pattern;
             next.parameters = from.parameters;
-            next.parameters.apply(equations.step(from.damping, from.parameters.held()), options_.max_shift_texels, next.pattern);
+            for (std::size_t i = 0; i < resting.size(); ++i) resting[i] |= from.parameters.held()[i];
+            next.parameters.apply(equations.step(from.damping, resting), options_.max_shift_texels, next.pattern);
             Result<ResolvedPattern> resolved = resolve_pattern(next.pattern, resolve_options());
             if (!resolved || round == kHoldRounds) return resolved;
             const std::vector<std::uint8_t> resolves = resolving_paths(next.pattern, *resolved);
@@ -307,17 +332,6 @@ class Refinement {
         Result<Prediction> after = look(other, kRough);
         if (!after || misfit(*after, kRoughThreshold) >= share * misfit(first.prediction, kRoughThreshold)) return first;
         return {std::move(other), std::move(*after)};
-    }
-
-    // How much less the second prediction is off at each texel.
-    std::vector<float> gains_of(const Prediction& before, const Prediction& after, double threshold) const {
-        std::vector<float> gains(map_.texels.size(), 0.0f);
-        const auto add = [&](const std::vector<Residual>& residuals, double sign) {
-            for (const Residual& r : residuals) gains[r.texel] += static_cast<float>(sign * robust_cost(r, threshold));
-        };
-        add(before.residuals, 1.0), add(before.far, 1.0);
-        add(after.residuals, -1.0), add(after.far, -1.0);
-        return gains;
     }
 
     double sum_within(const std::vector<float>& values, const Box& window) const {
@@ -472,12 +486,53 @@ void keep_straighter(const Refinement& refinement, const Model& model, double sh
     const std::vector<ProfileMisfit> before = misfit_by_profile(best, threshold, refinement.damage());
     const std::vector<ProfileMisfit> after = misfit_by_profile(*trial, threshold, refinement.damage());
     Pattern mixed = trial->pattern;
-    for (std::size_t i = 0; i < mixed.profiles.size(); ++i)
-        if (!before[i].allows(after[i].cost)) mixed.profiles[i] = best.pattern.profiles[i];
+    std::vector<std::uint8_t> stays(before.size(), 0);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        stays[i] = !before[i].allows(after[i].cost);
+        if (stays[i]) mixed.profiles[i] = best.pattern.profiles[i];
+    }
     for (std::size_t i = 0; i < mixed.paths.size(); ++i)
-        if (const std::size_t profile = mixed.paths[i].profile; !before[profile].allows(after[profile].cost))
-            mixed.paths[i] = best.pattern.paths[i];
-    keep_better(refinement, model, mixed, kDamageMayCost, best, report);
+        if (stays[mixed.paths[i].profile]) mixed.paths[i] = best.pattern.paths[i];
+    if (std::find(stays.begin(), stays.end(), 1) != stays.end())
+        keep_better(refinement, model, mixed, kDamageMayCost, best, report);
+    else if (misfit(trial->prediction, threshold) <= kDamageMayCost * misfit(best.prediction, threshold))
+        best = std::move(*trial);
+}
+
+// Of the quadratics, those around which the second state is off by enough less.
+std::vector<ElementIndex> gaining(const std::vector<ElementIndex>& quadratics, const State& before, const Prediction& after,
+                                  const Refinement& refinement) {
+    const double threshold = threshold_of(deviation_of(before.prediction.residuals));
+    const std::vector<float> gains = refinement.gains_of(before.prediction, after, threshold);
+    std::map<std::pair<int, int>, std::pair<double, double>> sums;  // gain and cost
+    for (const ElementIndex& index : quadratics) sums[{index.path, index.element}] = {0.0, 0.0};
+    for (const Residual& r : before.prediction.residuals) {
+        if (!r.steep()) continue;
+        const ElementUnknowns& element = before.elements[static_cast<std::size_t>(r.element)];
+        const auto at = sums.find({element.path, element.element});
+        if (at != sums.end()) at->second.first += gains[r.texel], at->second.second += robust_cost(r, threshold);
+    }
+    std::vector<ElementIndex> out;
+    for (const ElementIndex& index : quadratics)
+        if (const auto& [gain, cost] = sums[{index.path, index.element}]; gain > kSplitMustGain * cost) out.push_back(index);
+    return out;
+}
+
+// Splits the quadratics for which that pays, and tells how many.
+std::size_t keep_split(const Refinement& refinement, const Model& model, const std::vector<ElementIndex>& quadratics, State& best,
+                       RefineReport& report) {
+    Pattern split = best.pattern;
+    split_quadratics(split, quadratics);
+    Result<State> trial = refinement.run(split, model, report);
+    if (!trial) return 0;
+    const std::vector<ElementIndex> paying = gaining(quadratics, best, trial->prediction, refinement);
+    if (paying.size() == quadratics.size()) {
+        best = std::move(*trial);
+        return paying.size();
+    }
+    split = best.pattern;
+    split_quadratics(split, paying);
+    return !paying.empty() && keep_better(refinement, model, split, 1.0, best, report) ? paying.size() : 0;
 }
 
 // First with the profiles as they came, symmetric ones made so; then simpler ones, and more elements where they are too few.
@@ -499,11 +554,9 @@ Result<State> refine_roughly(const Refinement& refinement, const Pattern& start,
     int splits = options.most_splits;
     for (int round = 0; round < kSplitRounds && options.positions && options.elements; ++round) {
         const std::vector<ElementIndex> strained = strained_quadratics(*best, splits);
-        if (strained.empty()) break;
-        splits -= static_cast<int>(strained.size());
-        Pattern split = best->pattern;
-        split_quadratics(split, strained);
-        if (!keep_better(refinement, kRough, split, kSplitMustGain, *best, report)) break;
+        const std::size_t kept = strained.empty() ? 0 : keep_split(refinement, kRough, strained, *best, report);
+        if (kept == 0) break;
+        splits -= static_cast<int>(kept);
     }
     return best;
 }

@@ -27,7 +27,7 @@ struct RefineOptions {
     // add a line to a path and take away a small closed step that a drawn-out path explains.
     bool ends = true;
     // Polylines that go round become quadratics before the fit; quadratics that the map shows to be too few for their
-    // arc (off by more than 0.02 texels and the noise) are split after it.
+    // arc (off by more than 0.012 texels and the noise) are split after it.
     bool elements = true;
     int most_splits = 1 << 30;        // of quadratics; those that leave the map by most come first. >= 0
     bool scales = true;               // width and height scales, of paths that have any other than 1
