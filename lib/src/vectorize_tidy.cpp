@@ -109,7 +109,6 @@ class EndJoiner {
 
     // Below 1 when the two continue each other.
     double cost_of(const EndLine& a, const EndLine& b) const {
-        if (a.chain == b.chain) return 2.0;
         const Chain& p = chains_[a.chain];
         const Chain& q = chains_[b.chain];
         const double wide = std::max(p.half_width, q.half_width), narrow = std::min(p.half_width, q.half_width);
@@ -117,6 +116,8 @@ class EndJoiner {
         const Vec2 between = b.foot + lattice_.shift_to(b.foot, a.foot) - a.foot;
         const double gap = length(between);
         if (gap > kMostWidths * (wide + 1.0) || wide + 0.5 > kWider * (narrow + 0.5) || high > 1.4 * low) return 2.0;
+        // A ring that something hides once is one chain already.
+        if (a.chain == b.chain && static_cast<double>(p.points.size()) < 4.0 * gap) return 2.0;
         if (gap == 0.0 || dot(between, a.outward) < 0.0 || !is_shown(a, between)) return 2.0;
         return std::min(straight_cost(a, b, between, 0.25 * wide + 0.5 + 0.04 * gap), bent_cost(a, b, between));
     }
@@ -129,7 +130,7 @@ class EndJoiner {
 
     // An arc that another line hides in the middle turns on both sides of it by the same angle.
     double bent_cost(const EndLine& a, const EndLine& b, Vec2 between) const {
-        constexpr double kMostTurn = 1.2, kMostDifference = 0.15;  // radians
+        constexpr double kMostTurn = 1.5, kMostDifference = 0.15;  // radians
         if (!hidden_[lattice_.nearest(a.foot + between * 0.5)]) return 2.0;
         const auto angle = [](Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); };
         const double first = angle(a.outward, between), second = angle(between, -b.outward);
