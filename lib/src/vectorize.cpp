@@ -400,6 +400,7 @@ Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, 
     const std::size_t budget = element_budget(lattice, options);
     std::vector<FittedChain> fitted = fit_within(traced, map.image, options, budget, regions, result, thread_count(options.threads));
     untangle_steps(fitted, lattice, result.tolerance);
+    land_tees(fitted, lattice, result.tolerance);
     if (!proceed(0.6)) return stopped();
     const ProfileSet set = measure_profiles(fitted, map.image, lattice, regions, profile_options(traced, options));
     drop_useless(fitted, traced.energy, budget);

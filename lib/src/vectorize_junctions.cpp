@@ -89,17 +89,22 @@ double straight_cost(const Arm& a, const Arm& b) {
     return turn > kMostTurn || offset > allowed ? kNoContinuation : 0.5 * turn / kMostTurn + 0.5 * offset / allowed;
 }
 
-// What an arc that bends as both arms do leaves over: it turns by as much in between, half of it on either side of the chord.
+// What a curve in between leaves over that bends as the arms do: an arc, or an arc and a straight line that it leads into.
 double bent_cost(const Arm& a, const Arm& b) {
-    constexpr double kMostTurn = 1.5, kMostDifference = 0.3, kMostRatio = 2.0;
+    constexpr double kStraight = 1e-6, kMostRatio = 2.0;  // fit_tail makes what is straight exactly so
+    constexpr double kMostTurn = 1.5, kMostTurnToLine = 0.8, kMostDifference = 0.3;
     const double bend = a.tail.curvature, other = -b.tail.curvature;
-    const bool same_way = bend * other > 0.0 && std::fabs(bend) < kMostRatio * std::fabs(other) && std::fabs(other) < kMostRatio * std::fabs(bend);
+    const bool to_line = (std::fabs(bend) < kStraight) != (std::fabs(other) < kStraight);
+    const bool is_arc = bend * other > 0.0 && std::fabs(bend) < kMostRatio * std::fabs(other) && std::fabs(other) < kMostRatio * std::fabs(bend);
     const Vec2 between = b.tail.origin - a.tail.origin;
-    if (!same_way || dot(a.tail.along, between) <= 0.0) return kNoContinuation;
-    const double first = turn_between(a.tail.along, between), second = turn_between(between, -b.tail.along);
-    const double uneven = std::fabs(first - second);
-    const double difference = std::fabs(first + second - 0.5 * (bend + other) * length(between));
-    if (std::fabs(first + second) > kMostTurn || std::max(uneven, difference) > kMostDifference) return kNoContinuation;
+    if ((!is_arc && !to_line) || dot(a.tail.along, between) <= 0.0) return kNoContinuation;
+    const double start = turn_between(a.tail.along, between), turn = start + turn_between(between, -b.tail.along);
+    const double arc = length(between) * (to_line ? bend + other : 0.5 * (bend + other));  // if it bends all the way
+    const double bent = to_line ? std::clamp(turn / arc, 0.0, 1.0) : 1.0;                  // share of the way
+    // The chord leads into the mean direction of the curve.
+    const double uneven = 2.0 * std::fabs(start - turn * (std::fabs(other) < kStraight ? 1.0 - 0.5 * bent : 0.5 * bent));
+    const double difference = std::fabs(turn - arc * bent);
+    if (std::fabs(turn) > (to_line ? kMostTurnToLine : kMostTurn) || std::max(uneven, difference) > kMostDifference) return kNoContinuation;
     return 0.5 * (uneven + difference) / kMostDifference;
 }
 

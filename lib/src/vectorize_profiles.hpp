@@ -41,6 +41,9 @@ double height_at(const Profile& profile, double b);
 void choose_caps(std::vector<FittedChain>& chains, const ProfileSet& set, const Image& map, const Lattice& lattice,
                  const Regions& regions);
 
+// Lines that end on others (EndTie::chain) end on what was fitted to those; all were fitted within `tolerance`.
+void land_tees(std::vector<FittedChain>& chains, const Lattice& lattice, double tolerance);
+
 // Per chain: 1 when it is a step whose elements cross those of a step, itself included.
 std::vector<std::uint8_t> find_tangled_steps(const std::vector<FittedChain>& chains, const Lattice& lattice);
 

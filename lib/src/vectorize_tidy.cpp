@@ -8,6 +8,8 @@
 
 #include <burin/fit.hpp>
 
+#include "resolve_curve.hpp"
+
 namespace burin::vectorizing {
 
 LineFit fit_line(const std::vector<Vec2>& points) {
@@ -107,7 +109,6 @@ class EndJoiner {
 
     // Below 1 when the two continue each other.
     double cost_of(const EndLine& a, const EndLine& b) const {
-        if (a.chain == b.chain) return 2.0;
         const Chain& p = chains_[a.chain];
         const Chain& q = chains_[b.chain];
         const double wide = std::max(p.half_width, q.half_width), narrow = std::min(p.half_width, q.half_width);
@@ -115,6 +116,8 @@ class EndJoiner {
         const Vec2 between = b.foot + lattice_.shift_to(b.foot, a.foot) - a.foot;
         const double gap = length(between);
         if (gap > kMostWidths * (wide + 1.0) || wide + 0.5 > kWider * (narrow + 0.5) || high > 1.4 * low) return 2.0;
+        // A ring that something hides once is one chain already.
+        if (a.chain == b.chain && static_cast<double>(p.points.size()) < 4.0 * gap) return 2.0;
         if (gap == 0.0 || dot(between, a.outward) < 0.0 || !is_shown(a, between)) return 2.0;
         return std::min(straight_cost(a, b, between, 0.25 * wide + 0.5 + 0.04 * gap), bent_cost(a, b, between));
     }
@@ -127,7 +130,7 @@ class EndJoiner {
 
     // An arc that another line hides in the middle turns on both sides of it by the same angle.
     double bent_cost(const EndLine& a, const EndLine& b, Vec2 between) const {
-        constexpr double kMostTurn = 1.2, kMostDifference = 0.15;  // radians
+        constexpr double kMostTurn = 1.5, kMostDifference = 0.15;  // radians
         if (!hidden_[lattice_.nearest(a.foot + between * 0.5)]) return 2.0;
         const auto angle = [](Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); };
         const double first = angle(a.outward, between), second = angle(between, -b.outward);
@@ -298,13 +301,17 @@ void extend_to_lines(std::vector<Chain>& chains, const Image& response, const La
 
 namespace {
 
+// Chords of an element; all have one index, or each its own.
+std::uint32_t add_chords(SegmentBuckets& buckets, const Element& e, std::uint32_t chain, std::uint32_t index, bool counted) {
+    const int n = e.kind == ElementKind::line ? 1 : 12;
+    for (int k = 0; k < n; ++k, index += counted ? 1 : 0)
+        buckets.add({point_at(e, double(k) / n), point_at(e, double(k + 1) / n), chain, index});
+    return index;
+}
+
 void add_elements(SegmentBuckets& buckets, const FittedChain& fitted, std::uint32_t chain) {
     std::uint32_t index = 0;
-    for (const Element& e : fitted.elements) {
-        const int n = e.kind == ElementKind::line ? 1 : 12;
-        for (int k = 0; k < n; ++k)
-            buckets.add({point_at(e, double(k) / n), point_at(e, double(k + 1) / n), chain, index++});
-    }
+    for (const Element& e : fitted.elements) index = add_chords(buckets, e, chain, index, true);
 }
 
 // Chains may touch at the ends they share, and neighbours along a chain always do.
@@ -332,6 +339,46 @@ std::vector<std::uint8_t> find_tangled_steps(const std::vector<FittedChain>& cha
         });
     });
     return tangled;
+}
+
+namespace {
+
+// Moves one end of a line onto the fitted line of another chain that passes within `reach` of it. Where that one ends too, or
+// runs alongside, the two continue each other, and neither ends on the other.
+void land_end(std::vector<FittedChain>& chains, std::uint32_t chain, bool at_start, const SegmentBuckets& buckets, double reach) {
+    constexpr double kLeastSine = 0.2, kPassesBy = 2.0;  // texels
+    std::vector<Element>& own = chains[chain].elements;
+    Vec2& end = at_start ? own.front().p0 : own.back().p2;
+    const Vec2 along = at_start ? curve::tangent(own.front(), 0.0) : curve::tangent(own.back(), 1.0);
+    Vec2 landing = end;
+    double least = reach;
+    buckets.near(end, end, reach, [&](const Segment& s, Vec2 shift) {
+        if (s.chain == chain) return;
+        const std::vector<Element>& other = chains[s.chain].elements;
+        const Element& e = other[s.index];
+        const double at = curve::nearest(e, end - shift);
+        const Vec2 foot = curve::point(e, at);
+        const bool passes = chains[s.chain].chain.closed || std::min(length(foot - other.front().p0), length(foot - other.back().p2)) > kPassesBy;
+        if (!passes || std::fabs(cross(along, curve::tangent(e, at))) < kLeastSine) return;
+        if (length(foot + shift - end) < least) least = length(foot + shift - end), landing = foot + shift;
+    });
+    end = landing;
+}
+
+}  // namespace
+
+void land_tees(std::vector<FittedChain>& chains, const Lattice& lattice, double tolerance) {
+    SegmentBuckets buckets(lattice);
+    for (std::uint32_t c = 0; c < chains.size(); ++c)
+        for (std::uint32_t i = 0; i < chains[c].elements.size() && chains[c].chain.kind != ChainKind::step; ++i)
+            add_chords(buckets, chains[c].elements[i], c, i, false);
+    const double reach = 2.0 * tolerance + 0.5;  // as far as both fits may lie from where the chains meet
+    for (std::uint32_t c = 0; c < chains.size(); ++c) {
+        const Chain& chain = chains[c].chain;
+        if (chain.kind == ChainKind::step || chain.closed) continue;
+        if (chain.start_tie == EndTie::chain) land_end(chains, c, true, buckets, reach);
+        if (chain.end_tie == EndTie::chain) land_end(chains, c, false, buckets, reach);
+    }
 }
 
 namespace {

@@ -122,6 +122,25 @@ Vec2 smoothed(const std::vector<Vec2>& points, std::ptrdiff_t i, std::ptrdiff_t 
     return sum * (1.0 / weight);
 }
 
+// Beyond the free end of a line lies the inside of a broader one that it runs into: a few of its texels may look like the
+// line's own, but they do not hang together with it.
+void drop_stray_end(std::vector<Vec2>& points) {
+    constexpr std::size_t kFew = 4;
+    for (std::size_t k = 1; k < std::min(kFew, points.size() / 2); ++k) {
+        const std::size_t last = points.size() - k;
+        if (length(points[last] - points[last - 1]) <= kBridge) continue;
+        points.resize(last);
+        return;
+    }
+}
+
+void drop_stray_ends(Strand& strand) {
+    for (const int end : {1, 0}) {
+        if (strand.node[end] < 0 && !strand.loop) drop_stray_end(strand.points);
+        std::reverse(strand.points.begin(), strand.points.end());
+    }
+}
+
 void measure_strand(Strand& strand, const Image& response, const Lattice& lattice,
                     const std::vector<SkeletonNode>& nodes, double reach) {
     const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(strand.texels.size());
@@ -157,6 +176,7 @@ void measure_strand(Strand& strand, const Image& response, const Lattice& lattic
             }
         if (steady && !near_node) strand.points.push_back(centres[i]);
     }
+    drop_stray_ends(strand);
 }
 
 }  // namespace
