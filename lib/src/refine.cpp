@@ -17,6 +17,7 @@
 #include "refine_sections.hpp"
 #include "refine_simplify.hpp"
 #include "refine_solve.hpp"
+#include "refine_units.hpp"
 
 namespace burin {
 namespace refinement {
@@ -28,9 +29,9 @@ constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kSlower = 0.3;              // damping below it hardly shortens a step
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
-constexpr double kStraighterMayDiffer[] = {0.03, 0.01};  // of a profile's relief, root mean square
-constexpr double kSurelyDamage = 2.0, kNearDamage = 9.0;  // of the misfit that the map's damage alone makes
-constexpr double kDamageMayCost = 1.5;                    // of a misfit near that
+constexpr double kStraighterMayDiffer[] = {0.1, 0.03, 0.01};  // of a profile's relief, root mean square
+constexpr double kSurelyDamage = 2.0, kNearDamage = 16.0;  // of the misfit that the map's damage alone makes
+constexpr double kDamageMayCost = 1.6;                    // of a misfit near that
 constexpr double kCoarsest = 1.0 / 255.0;   // map scale: rounding of maps that have few values
 constexpr double kRoughThreshold = 0.05;    // Huber's, before anything is fitted
 constexpr double kTidyMayCost = 1.05;        // of the misfit, before ends are settled
@@ -49,38 +50,6 @@ constexpr std::size_t kMostLooks = 800000;
 constexpr int kFewestSteps = 3;
 constexpr int kMostRefused = 8;    // steps in a row
 constexpr int kHoldRounds = 3;
-
-// The pattern in texels of the map's width, heights in map scale: white 1, black 0.
-Pattern to_texels(const Pattern& pattern, double texel) {
-    Pattern out = pattern;
-    const double inverse = 1.0 / texel;
-    const auto height = [&](double z) { return 1.0 + (z - pattern.base_offset) / pattern.depth; };
-    out.size = pattern.size * inverse;
-    out.depth = 1.0;
-    out.base_offset = 1.0;
-    out.outer_level = height(pattern.outer_level);
-    for (Profile& profile : out.profiles)
-        for (ProfilePoint& point : profile.points) point.b *= inverse, point.h /= pattern.depth;
-    for (Path& path : out.paths) {
-        path.level = height(path.level);
-        for (Element& e : path.elements) e.p0 = e.p0 * inverse, e.p1 = e.p1 * inverse, e.p2 = e.p2 * inverse;
-    }
-    return out;
-}
-
-// Writes the refined paths and profiles back into the pattern in metres.
-void from_texels(Pattern refined, double texel, Pattern& pattern) {
-    const auto metres = [&](double value) { return pattern.base_offset + (value - 1.0) * pattern.depth; };
-    pattern.outer_level = metres(refined.outer_level);
-    pattern.profiles = std::move(refined.profiles);
-    pattern.paths = std::move(refined.paths);
-    for (Profile& profile : pattern.profiles)
-        for (ProfilePoint& point : profile.points) point.b *= texel, point.h *= pattern.depth;
-    for (Path& path : pattern.paths) {
-        path.level = metres(path.level);
-        for (Element& e : path.elements) e.p0 = e.p0 * texel, e.p1 = e.p1 * texel, e.p2 = e.p2 * texel;
-    }
-}
 
 // Standard deviation of the residuals on walls, where misplacement shows, or off them; outliers do not count.
 double deviation_of(const std::vector<Residual>& residuals, bool on_walls = true) {
@@ -315,7 +284,7 @@ class Refinement {
             for (std::size_t i = 0; i < resting.size(); ++i) resting[i] |= from.parameters.held()[i];
             next.parameters.apply(equations.step(from.damping, resting), options_.max_shift_texels, next.pattern);
             Result<ResolvedPattern> resolved = resolve_pattern(next.pattern, resolve_options());
-            if (!resolved || round == kHoldRounds) return resolved;
+            if (!resolved) return resolved;
             const std::vector<std::uint8_t> resolves = resolving_paths(next.pattern, *resolved);
             bool any_lost = false;
             for (std::size_t path = 0; path < resolves.size(); ++path) {
@@ -324,6 +293,7 @@ class Refinement {
                 any_lost = true;
             }
             if (!any_lost) return resolved;
+            if (round == kHoldRounds) return Error{ErrorCode::invalid_input, "a step loses paths"};
         }
     }
 
@@ -431,12 +401,19 @@ std::vector<ElementIndex> strained_quadratics(const State& state, int most) {
     return worst;
 }
 
+// Whether a path that is left in the first state is none in the second. A robust misfit hardly sees that.
+bool loses_paths(const State& before, const State& after) {
+    for (std::size_t i = 0; i < std::min(before.resolves.size(), after.resolves.size()); ++i)
+        if (before.resolves[i] && !after.resolves[i]) return true;
+    return false;
+}
+
 // Refines `candidate` and puts it in the place of `best` when its misfit is at most `share` of the best one's.
 bool keep_better(const Refinement& refinement, const Model& model, const Pattern& candidate, double share, State& best,
                  RefineReport& report) {
     RefineReport trial = report;
     Result<State> state = refinement.run(candidate, model, trial);
-    if (!state) return false;
+    if (!state || loses_paths(best, *state)) return false;
     const double threshold = threshold_of(deviation_of(best.prediction.residuals));
     if (misfit(state->prediction, threshold) > share * misfit(best.prediction, threshold)) return false;
     report = trial;
@@ -481,7 +458,7 @@ void keep_straighter(const Refinement& refinement, const Model& model, double sh
     Pattern straighter = best.pattern;
     if (!straighten_sections(straighter, share)) return;
     Result<State> trial = refinement.run(straighter, model, report);
-    if (!trial) return;
+    if (!trial || loses_paths(best, *trial)) return;
     const double threshold = threshold_of(deviation_of(best.prediction.residuals));
     const std::vector<ProfileMisfit> before = misfit_by_profile(best, threshold, refinement.damage());
     const std::vector<ProfileMisfit> after = misfit_by_profile(*trial, threshold, refinement.damage());
@@ -524,7 +501,7 @@ std::size_t keep_split(const Refinement& refinement, const Model& model, const s
     Pattern split = best.pattern;
     split_quadratics(split, quadratics);
     Result<State> trial = refinement.run(split, model, report);
-    if (!trial) return 0;
+    if (!trial || loses_paths(best, *trial)) return 0;
     const std::vector<ElementIndex> paying = gaining(quadratics, best, trial->prediction, refinement);
     if (paying.size() == quadratics.size()) {
         best = std::move(*trial);

@@ -16,6 +16,8 @@ constexpr double kStep = 0.25;         // texels between samples
 constexpr double kMargin = 1.0;        // texels beyond the ends: half of a texel's blur, and a little ground
 constexpr double kNarrowest = 0.02;    // texels between points
 constexpr double kFurthest = 1.0;      // texels that the middle may lie beside b = 0
+constexpr double kLeastError = 1e-3;   // of the relief: less is none
+constexpr double kNumberCosts = 1.35;  // times the error that a number more must take away
 constexpr int kRounds = 12;
 constexpr Spread kTexel{1.0, 0.0};
 
@@ -234,26 +236,30 @@ std::vector<Family> families_below(std::size_t points) {
     return families;
 }
 
+// Of the families within the tolerance the one whose error is least for what it costs.
 bool straighten(Profile& profile, double share) {
     const std::vector<ProfilePoint>& points = profile.points;
     if (!profile.facets.empty() || points.size() < 4 || points.front().h != points.back().h) return false;
     double low = points.front().h, high = low;
     for (const ProfilePoint& p : points) low = std::min(low, p.h), high = std::max(high, p.h);
-    const double tolerance = share * (high - low);
     const Section section(points);
+    std::vector<ProfilePoint> best;
+    double least = 1e300;
     for (const Family& family : families_below(points.size())) {
         const auto start = start_of(family, points);
         if (!start) continue;
         std::vector<ProfilePoint> fitted = section.fit(family, *start);
-        if (section.error_of(fitted) > tolerance) continue;
-        const double middle = 0.5 * (fitted.front().b + fitted.back().b);
-        if (family.symmetric && std::abs(middle) > kFurthest) continue;
-        if (family.symmetric)
-            for (ProfilePoint& p : fitted) p.b -= middle;
-        profile.points = std::move(fitted);
-        return true;
+        const double error = section.error_of(fitted);
+        const double price = std::max(error, kLeastError * (high - low)) * std::pow(kNumberCosts, Layout(family).count());
+        const double middle = family.symmetric ? 0.5 * (fitted.front().b + fitted.back().b) : 0.0;
+        if (error > share * (high - low) || price >= least || std::abs(middle) > kFurthest) continue;
+        least = price;
+        best = std::move(fitted);
+        for (ProfilePoint& p : best) p.b -= middle;
     }
-    return false;
+    if (best.empty()) return false;
+    profile.points = std::move(best);
+    return true;
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 //     HeightMap         --[find_pattern]--> FoundPattern, and what was measured on the way
 //     HeightMap + Model --[convert_map]---> the same, and the bytes of OUT.glb
 //
-//     vectorize -> resolve -> grid -> pack -> measure -> refine -> (again from resolve) | -> bake -> glTF
-//                                                                          find_pattern | convert_map
+//     coarsen -> vectorize -> resolve -> grid -> pack -> measure -> refine -> (again from resolve) | -> bake -> glTF
+//                                                                                     find_pattern | convert_map
 //     (bake: the fallback of the core material, and the residual)
 //
 // The figures are measured on the bytes that are written: the textures are unpacked again, rasterized by the evaluator
