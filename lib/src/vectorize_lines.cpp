@@ -45,9 +45,9 @@ float sign_of(ChainKind kind) { return kind == ChainKind::groove ? 1.0f : -1.0f;
 // A letter of broad strokes is lines as a whole or an area as a whole: where the bands of its lines are not what the mask
 // shows, because strokes are missing, lie beside it, or swell and taper, all its broad lines go; and where most of them are
 // so wide that the square touches the feet of their walls and takes only a part of them. What earlier lines took out of
-// the mask, the `whole` response still shows.
+// the mask, the `whole` response still shows and the present one does not.
 void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::uint8_t>& mask, const Parts& parts,
-                         const Image& whole, const Lattice& lattice, double radius) {
+                         const Image& response, const Image& whole, const Lattice& lattice, double radius) {
     constexpr double kBroadStroke = 2.5, kMostMismatch = 0.1, kMostOutside = 0.04, kTooWide = 0.82;
     // 1: within a line's band, a texel of doubt included; 2: well within it.
     std::vector<std::uint8_t> band(mask.size(), 0);
@@ -79,7 +79,8 @@ void drop_partial_shapes(std::vector<Chain>& chains, const std::vector<std::uint
         for_each_place(chains[c], [&](Vec2 p, Vec2, double half_width) {
             for_each_texel_near(p, lattice, static_cast<int>(std::ceil(half_width)), [&](int texel, Vec2) {
                 if (band[texel] != 2 || mask[texel] || part_of[c] < 0) return;
-                if (whole.texels[texel] > 0.5 * chains[c].contrast) return;
+                const double half = 0.5 * chains[c].contrast;
+                if (whole.texels[texel] > half && response.texels[texel] < half) return;
                 band[texel] = 0;
                 area[part_of[c]].different += 1.0;
                 area[part_of[c]].outside += 1.0;
@@ -282,7 +283,7 @@ std::vector<Chain> trace_lines(Image& map, Image response, Erased& erased, const
     measure_strands(skeleton, whole, lattice);
     const std::vector<Chain> all = join_strands(skeleton, whole, lattice, kind);
     std::vector<Chain> chains = keep_lines(all, mask, parts, map, lattice, noise, 2e-5 * energy, scale);
-    if (scale.radius == scale.widest) drop_partial_shapes(chains, mask, parts, whole, lattice, scale.radius);
+    if (scale.radius == scale.widest) drop_partial_shapes(chains, mask, parts, response, whole, lattice, scale.radius);
     restored = {};
     if (!chains.empty()) erase_lines(map, response, lattice, chains, kind, scale, least, erased);
     for (Chain& chain : chains) chain.half_widths.clear();
