@@ -16,7 +16,7 @@ constexpr double kStep = 0.25;         // texels between samples
 constexpr double kMargin = 1.0;        // texels beyond the ends: half of a texel's blur, and a little ground
 constexpr double kNarrowest = 0.02;    // texels between points
 constexpr double kFurthest = 1.0;      // texels that the middle may lie beside b = 0
-constexpr double kLeastError = 1e-3;   // of the relief: less is none
+constexpr double kLeastError = 0.01;   // of the relief: less is none
 constexpr double kNumberCosts = 1.35;  // times the error that a number more must take away
 constexpr int kRounds = 12;
 constexpr Spread kTexel{1.0, 0.0};
