@@ -1,8 +1,23 @@
 #include "refine_units.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace burin::refinement {
+namespace {
+
+// A step whose upper side came to lie above the object surface, or its lower below the deepest point, ends there.
+void keep_levels_within(Pattern& refined) {
+    for (Path& path : refined.paths) {
+        path.level = std::clamp(path.level, 0.0, 1.0);
+        std::vector<ProfilePoint>& points = refined.profiles[path.profile].points;
+        const double rise = points.back().h - points.front().h;
+        if (rise != 0.0) points.back().h = points.front().h + std::clamp(rise, -path.level, 1.0 - path.level);
+    }
+}
+
+}  // namespace
 
 Pattern to_texels(const Pattern& pattern, double texel) {
     Pattern out = pattern;
@@ -22,6 +37,7 @@ Pattern to_texels(const Pattern& pattern, double texel) {
 }
 
 void from_texels(Pattern refined, double texel, Pattern& pattern) {
+    keep_levels_within(refined);
     const auto metres = [&](double value) { return pattern.base_offset + (value - 1.0) * pattern.depth; };
     pattern.outer_level = metres(refined.outer_level);
     pattern.profiles = std::move(refined.profiles);
