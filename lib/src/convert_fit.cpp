@@ -43,6 +43,7 @@ double share_to_keep(const PackedTextures& textures, std::size_t budget, int att
 Result<Candidate> fit_within(const Source& source, const ConvertOptions& options, std::size_t budget,
                              const Progress& progress, StageClock& clock, int most_elements) {
     const bool asked = options.max_texture_bytes > 0;
+    constexpr int kMostHalvings = 12;
     const int most_attempts = asked ? 12 : 4, fewest = asked ? 1 : 16;
     // The refinement finds profiles alike, and stores fewer.
     const std::size_t enough = asked ? budget : budget + budget / 50;
@@ -56,14 +57,14 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
         const int traced = count_elements(fitted->pattern);
         auto candidate = pack_candidate(std::move(*fitted), source.map, options, budget, clock);
         // Where too many elements act at one place, fewer of them may still be stored.
-        if (!candidate && candidate.error().code == ErrorCode::limit_exceeded && attempt < most_attempts && traced > fewest) {
+        if (!candidate && candidate.error().code == ErrorCode::limit_exceeded && attempt < kMostHalvings && traced > fewest) {
             vectorize.most_elements = std::max(fewest, traced / 2);
             continue;
         }
         if (!candidate) return candidate.error();
         const int elements = candidate->stats.lines + candidate->stats.quadratics;
         candidate->most_elements = vectorize.most_elements;
-        if (candidate->bytes() <= enough || attempt == most_attempts || elements <= fewest)
+        if (candidate->bytes() <= enough || attempt >= most_attempts || elements <= fewest)
             return measure_candidate(std::move(*candidate), source.map, options, clock);
         const int most = vectorize.most_elements > 0 ? std::min(vectorize.most_elements, elements) : elements;
         vectorize.most_elements = std::max(fewest, static_cast<int>(most * share_to_keep(candidate->packed.textures, budget, attempt)));

@@ -109,7 +109,8 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     auto textures = grid_and_pack(*resolved, grid, options.pack, clock);
     if (textures && !chosen && bytes_of(*textures) > budget) {
         grid.max_bytes = std::max(budget / kLeastGrid, room_beside(*textures, budget));
-        textures = grid_and_pack(*resolved, grid, options.pack, clock);
+        // Too large a cell lists too many elements: then it is elements that go.
+        if (auto larger = grid_and_pack(*resolved, grid, options.pack, clock)) textures = std::move(larger);
     }
     if (!textures) return textures.error();
     stats.cells = textures->grid_width * textures->grid_height;
