@@ -115,9 +115,7 @@ Coarsened coarsen_map(const HeightMap& map, const CoarsenOptions& options) {
     while (fine->texels.size() >= options.least_texels && fine->width % 2 == 0 && fine->height % 2 == 0) {
         Image coarse = halved(*fine, options.threads);
         if (!shows_all(*fine, coarse, rounding_of(map), options)) break;
-        if (!out.map) {
-            out.map.emplace();
-        }
+        if (!out.map) out.map.emplace();
         out.map->image = std::move(coarse);
         fine = &out.map->image;
         ++out.halvings;

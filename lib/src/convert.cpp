@@ -14,7 +14,7 @@ namespace burin {
 using namespace converting;
 namespace {
 
-constexpr double kAccidentShare = 0.1;
+constexpr double kAccidentShare = 0.1;  // explained: paths that reach less are accidents
 
 // A step of the refinement looks at the texels within reach of every element: wide profiles on long paths would take
 // long and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a

@@ -274,8 +274,8 @@ class Refinement {
         return worse;
     }
 
-    // Moves `next` on from `from`, all but what rests. Paths that would then resolve no more, since a step path of theirs crosses another, stay
-    // where they are from now on: shorter steps of everything else would not help them.
+    // Moves `next` on from `from`, all but what rests. Paths that would then resolve no more, since a step path of theirs
+    // crosses another, stay where they are from now on: shorter steps of everything else would not help them.
     Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, std::vector<std::uint8_t> resting,
                                       State& next) const {
         for (int round = 0;; ++round) {
@@ -367,6 +367,16 @@ std::optional<Error> fault_of(const Pattern& pattern, const Image& map, const Re
     return fault_of_paths(pattern);
 }
 
+// Calls visit(residual, element) for the residuals on walls of paths: there misplacement shows.
+template <typename Visit>
+void for_each_on_walls(const State& state, const Visit& visit) {
+    for (const Residual& r : state.prediction.residuals) {
+        if (!r.steep()) continue;
+        const ElementUnknowns& element = state.elements[static_cast<std::size_t>(r.element)];
+        if (element.path >= 0) visit(r, element);
+    }
+}
+
 // Quadratics that leave the map by more than its noise accounts for: too few for the arc they follow. At most so many,
 // those that are off by most.
 std::vector<ElementIndex> strained_quadratics(const State& state, int most) {
@@ -374,17 +384,14 @@ std::vector<ElementIndex> strained_quadratics(const State& state, int most) {
         double squares = 0.0, slopes = 0.0, count = 0.0;
     };
     std::map<std::pair<int, int>, Sums> sums;
-    for (const Residual& r : state.prediction.residuals) {
-        if (!r.steep()) continue;
-        const ElementUnknowns& element = state.elements[static_cast<std::size_t>(r.element)];
-        if (element.path < 0) continue;
+    for_each_on_walls(state, [&](const Residual& r, const ElementUnknowns& element) {
         Sums& sum = sums[{element.path, element.element}];
         // One torn texel does not make a strained arc.
         const double value = std::min(double(std::abs(r.value)), kTorn);
         sum.squares += r.weight * value * value;
         sum.slopes += r.weight * double(r.slope) * r.slope;
         sum.count += r.weight;
-    }
+    });
     const double noise = deviation_of(state.prediction.residuals, false);
     std::vector<std::pair<double, ElementIndex>> strained;
     for (const auto& [index, sum] : sums) {
@@ -442,14 +449,11 @@ struct ProfileMisfit {
 
 std::vector<ProfileMisfit> misfit_by_profile(const State& state, double threshold, double damage) {
     std::vector<ProfileMisfit> misfits(state.pattern.profiles.size());
-    for (const Residual& r : state.prediction.residuals) {
-        if (!r.steep()) continue;
-        const int path = state.elements[static_cast<std::size_t>(r.element)].path;
-        if (path < 0) continue;
-        ProfileMisfit& misfit = misfits[state.pattern.paths[static_cast<std::size_t>(path)].profile];
+    for_each_on_walls(state, [&](const Residual& r, const ElementUnknowns& element) {
+        ProfileMisfit& misfit = misfits[state.pattern.paths[static_cast<std::size_t>(element.path)].profile];
         misfit.cost += robust_cost(r, threshold);
         misfit.damage += 0.5 * r.weight * damage * damage;
-    }
+    });
     return misfits;
 }
 
@@ -483,12 +487,10 @@ std::vector<ElementIndex> gaining(const std::vector<ElementIndex>& quadratics, c
     const std::vector<float> gains = refinement.gains_of(before.prediction, after, threshold);
     std::map<std::pair<int, int>, std::pair<double, double>> sums;  // gain and cost
     for (const ElementIndex& index : quadratics) sums[{index.path, index.element}] = {0.0, 0.0};
-    for (const Residual& r : before.prediction.residuals) {
-        if (!r.steep()) continue;
-        const ElementUnknowns& element = before.elements[static_cast<std::size_t>(r.element)];
+    for_each_on_walls(before, [&](const Residual& r, const ElementUnknowns& element) {
         const auto at = sums.find({element.path, element.element});
         if (at != sums.end()) at->second.first += gains[r.texel], at->second.second += robust_cost(r, threshold);
-    }
+    });
     std::vector<ElementIndex> out;
     for (const ElementIndex& index : quadratics)
         if (const auto& [gain, cost] = sums[{index.path, index.element}]; gain > kSplitMustGain * cost) out.push_back(index);

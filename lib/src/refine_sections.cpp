@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "refine_profile.hpp"
+#include "refine_simplify.hpp"
 
 namespace burin::refinement {
 namespace {
@@ -188,7 +189,7 @@ class Section {
     }
 
   private:
-    // False where points would change places.
+    // False where the equations have no answer.
     bool step(const Layout& layout, double damping, std::vector<ProfilePoint>& points) const {
         const std::size_t n = layout.count();
         std::vector<std::vector<double>> matrix(n, std::vector<double>(n, 0.0));
@@ -240,8 +241,7 @@ std::vector<Family> families_below(std::size_t points) {
 bool straighten(Profile& profile, double share) {
     const std::vector<ProfilePoint>& points = profile.points;
     if (!profile.facets.empty() || points.size() < 4 || points.front().h != points.back().h) return false;
-    double low = points.front().h, high = low;
-    for (const ProfilePoint& p : points) low = std::min(low, p.h), high = std::max(high, p.h);
+    const double relief = relief_of(profile);
     const Section section(points);
     std::vector<ProfilePoint> best;
     double least = 1e300;
@@ -250,9 +250,9 @@ bool straighten(Profile& profile, double share) {
         if (!start) continue;
         std::vector<ProfilePoint> fitted = section.fit(family, *start);
         const double error = section.error_of(fitted);
-        const double price = std::max(error, kLeastError * (high - low)) * std::pow(kNumberCosts, Layout(family).count());
+        const double price = std::max(error, kLeastError * relief) * std::pow(kNumberCosts, Layout(family).count());
         const double middle = family.symmetric ? 0.5 * (fitted.front().b + fitted.back().b) : 0.0;
-        if (error > share * (high - low) || price >= least || std::abs(middle) > kFurthest) continue;
+        if (error > share * relief || price >= least || std::abs(middle) > kFurthest) continue;
         least = price;
         best = std::move(fitted);
         for (ProfilePoint& p : best) p.b -= middle;

@@ -5,6 +5,13 @@
 #include <vector>
 
 namespace burin::refinement {
+
+double relief_of(const Profile& profile) {
+    double low = 1e300, high = -1e300;
+    for (const ProfilePoint& p : profile.points) low = std::min(low, p.h), high = std::max(high, p.h);
+    return high - low;
+}
+
 namespace {
 
 constexpr double kHeightShare = 0.03;    // of a profile's relief: what a dropped point may differ by in height ...
@@ -15,12 +22,6 @@ constexpr double kAlikeTexels = 0.05;    // that points of two profiles may diff
 constexpr double kAlikeShare = 0.003;    // ... and of the relief
 constexpr double kCentreTexels = 3.0;    // that a bare step may stand beside its rim
 constexpr double kGroundShare = 0.01;    // of the relief: an end facet that rises less is ground
-
-double relief_of(const Profile& profile) {
-    double low = 1e300, high = -1e300;
-    for (const ProfilePoint& p : profile.points) low = std::min(low, p.h), high = std::max(high, p.h);
-    return high - low;
-}
 
 // Distance from the chord a-b in units of the two tolerances; the smaller counts, so that a point on a steep wall may
 // be far off in height and one on a flat bottom far off in place.
@@ -171,8 +172,7 @@ bool are_alike(const Profile& a, const Profile& b) {
     return true;
 }
 
-}  // namespace
-
+// Profiles that differ next to nothing become one. Returns whether any did.
 bool share_profiles(Pattern& pattern) {
     bool changed = false;
     for (Path& path : pattern.paths)
@@ -183,6 +183,8 @@ bool share_profiles(Pattern& pattern) {
         }
     return changed;
 }
+
+}  // namespace
 
 bool simplify_profiles(Pattern& pattern) {
     bool changed = share_profiles(pattern);

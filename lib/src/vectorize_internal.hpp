@@ -42,6 +42,7 @@ struct Lattice {
     // Index of the texel that p lies in, or the nearest.
     int nearest(Vec2 p) const { return nearest(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))); }
     int size() const { return width * height; }
+    Vec2 centre(int texel) const { return {texel % width + 0.5, texel / width + 0.5}; }
     // The shift by whole tiles that brings p nearest to `target`.
     Vec2 shift_to(Vec2 p, Vec2 target) const {
         if (!wrap) return {0.0, 0.0};
@@ -212,6 +213,12 @@ void drop_crumbs(std::vector<Chain>& spots, const std::vector<Chain>& lines, con
 // Joins and ties the ends of all lines of one kind by the response of the map that has them in it: the two below.
 // `others`: the lines of the other kind, which may hide where a line goes on.
 void tie_lines(std::vector<Chain>& chains, const std::vector<Chain>& others, const Image& response, const Lattice& lattice);
+
+// Turning angle in radians from one direction to another.
+inline double turn_between(Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); }
+
+// How far to its sides a line takes texels.
+inline double covered_reach(double half_width) { return 1.5 * half_width + 2.0; }
 
 // Total least squares line through at least one point.
 struct LineFit {

@@ -115,7 +115,7 @@ double box_area(const Shape& shape, Vec2 along, Vec2 origin, const Lattice& latt
     constexpr double kTexel = 0.8;  // what a texel is wider than its centre: from all sides a little less than one
     Box box;
     for (const int texel : shape.texels) {
-        const Vec2 centre{texel % lattice.width + 0.5, texel / lattice.width + 0.5};
+        const Vec2 centre = lattice.centre(texel);
         const Vec2 d = centre + lattice.shift_to(centre, origin) - origin, p{dot(d, along), cross(along, d)};
         box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
         box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
@@ -152,7 +152,7 @@ std::vector<std::uint8_t> find_plateaus(const std::vector<Shape>& shapes, const 
 
 // Marks the texels that a line may have taken out of the map.
 void mark_taken(const Chain& line, const Lattice& lattice, std::vector<std::uint8_t>& taken) {
-    const int reach = static_cast<int>(std::ceil(1.5 * line.half_width + 2.0)) + 1;
+    const int reach = static_cast<int>(std::ceil(covered_reach(line.half_width))) + 1;
     for_each_place(line, [&](Vec2 p, Vec2, double) {
         for_each_texel_near(p, lattice, reach, [&](int texel, Vec2) { taken[texel] = 1; });
     });
@@ -162,7 +162,7 @@ void mark_taken(const Chain& line, const Lattice& lattice, std::vector<std::uint
 void mark_flat(const Shape& shape, const Image& source, const Lattice& lattice, std::vector<std::uint8_t>& flat) {
     const int reach = 1 + static_cast<int>(std::ceil(std::sqrt(static_cast<double>(shape.texels.size())) / 4.0));
     for (const int texel : shape.texels) {
-        const Vec2 centre{texel % lattice.width + 0.5, texel / lattice.width + 0.5};
+        const Vec2 centre = lattice.centre(texel);
         for_each_texel_near(centre, lattice, reach, [&](int i, Vec2) {
             const double off = std::min(std::fabs(source.texels[i] - shape.floor), std::fabs(source.texels[i] - shape.ground));
             if (off < kSameLevel * shape.contrast()) flat[i] = 1;
@@ -193,7 +193,6 @@ bool is_on_wall(const Chain& line, const Image& source, const Lattice& lattice) 
 // What is left of a plateau that was taken out of the map as lines may look like a line on ground that is at no level of it.
 bool is_remnant(const Chain& line, const Image& flattened, const Lattice& lattice, const std::vector<std::uint8_t>& free,
                 const std::vector<Shape>& plateaus) {
-
     const auto freed = std::count_if(line.points.begin(), line.points.end(), [&](Vec2 p) { return free[lattice.nearest(p)] != 0; });
     if (2 * freed < static_cast<std::ptrdiff_t>(line.points.size())) return false;
     const double ground = value_along(line, flattened, lattice, 0.5);

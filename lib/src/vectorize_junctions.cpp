@@ -68,9 +68,6 @@ bool intersect(const Arm& a, const Arm& b, Vec2& point) {
     return true;
 }
 
-// Turning angle in radians from one direction to another.
-double turn_between(Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); }
-
 bool look_alike(const Arm& a, const Arm& b) {
     const double width_ratio = (std::max(a.half_width, b.half_width) + 0.5) / (std::min(a.half_width, b.half_width) + 0.5);
     const double contrast_ratio = std::max(a.contrast, b.contrast) / std::max(1e-6, std::min(a.contrast, b.contrast));

@@ -123,7 +123,7 @@ bool crosses_unknown(const Chain& chain, const LinePlace& place, const Image& re
     const double beside = 1.6 * place.half_width + 1.5;
     for (const double side : {-beside, beside}) {
         const Vec2 q = place.point + place.normal * side;
-        const int texel = lattice.nearest(static_cast<int>(std::floor(q.x)), static_cast<int>(std::floor(q.y)));
+        const int texel = lattice.nearest(q);
         if (owner[texel] == kNobody && sample(response, lattice, q) > 0.5 * chain.contrast) return true;
     }
     return false;
@@ -148,9 +148,6 @@ void for_each_texel_across(Vec2 p, Vec2 normal, const Lattice& lattice, int reac
         }
     }
 }
-
-// How far to its sides a line takes texels.
-double covered_reach(double half_width) { return 1.5 * half_width + 2.0; }
 
 // How far a line reaches beyond the middle of a place of its chain: round the end of a line, and out to the tip of a corner.
 // 0: nowhere but across.

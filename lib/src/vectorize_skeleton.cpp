@@ -103,7 +103,6 @@ Strand walk_strand(Walker& walker, int first, Vec2 start, int from) {
     }
 }
 
-Vec2 centre_of(int i, const Lattice& lattice) { return {i % lattice.width + 0.5, i / lattice.width + 0.5}; }
 
 void trace_strands(Walker& walker, Skeleton& skeleton) {
     const Lattice& lattice = walker.lattice;
@@ -112,17 +111,17 @@ void trace_strands(Walker& walker, Skeleton& skeleton) {
         for (int k = 0; k < 8; ++k) {
             const int j = walker.at(i, k);
             if (j < 0 || walker.is_node(j) || walker.is_visited(j)) continue;
-            const Vec2 start = centre_of(i, lattice) + Vec2{double(kAroundX[k]), double(kAroundY[k])};
+            const Vec2 start = lattice.centre(i) + Vec2{double(kAroundX[k]), double(kAroundY[k])};
             skeleton.strands.push_back(walk_strand(walker, j, start, walker.node_at.at(i)));
         }
     }
     for (const int i : walker.texels) {
         if (walker.is_node(i) || walker.is_visited(i) || walker.degree(i) > 1) continue;
-        skeleton.strands.push_back(walk_strand(walker, i, centre_of(i, lattice), -1));
+        skeleton.strands.push_back(walk_strand(walker, i, lattice.centre(i), -1));
     }
     for (const int i : walker.texels) {
         if (walker.is_node(i) || walker.is_visited(i)) continue;
-        Strand strand = walk_strand(walker, i, centre_of(i, lattice), -1);
+        Strand strand = walk_strand(walker, i, lattice.centre(i), -1);
         strand.loop = strand.texels.size() > 4;
         skeleton.strands.push_back(std::move(strand));
     }

@@ -38,7 +38,7 @@ Box bounds_of(const Part& part) {
 // The texels of the part that holds texel `first`, in unwrapped coordinates.
 Part collect_part(int first, const std::vector<std::uint8_t>& mask, const Lattice& lattice, std::vector<std::uint8_t>& seen) {
     Part part;
-    part.texels.push_back({first % lattice.width + 0.5, first / lattice.width + 0.5});
+    part.texels.push_back(lattice.centre(first));
     part.index.push_back(first);
     seen[first] = 1;
     for (std::size_t k = 0; k < part.texels.size(); ++k)

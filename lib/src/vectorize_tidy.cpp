@@ -132,8 +132,7 @@ class EndJoiner {
     double bent_cost(const EndLine& a, const EndLine& b, Vec2 between) const {
         constexpr double kMostTurn = 1.5, kMostDifference = 0.15;  // radians
         if (!hidden_[lattice_.nearest(a.foot + between * 0.5)]) return 2.0;
-        const auto angle = [](Vec2 from, Vec2 to) { return std::atan2(cross(from, to), dot(from, to)); };
-        const double first = angle(a.outward, between), second = angle(between, -b.outward);
+        const double first = turn_between(a.outward, between), second = turn_between(between, -b.outward);
         const double difference = std::fabs(first - second);
         if (std::fabs(first + second) > kMostTurn || difference > kMostDifference) return 2.0;
         return 0.5 + 0.5 * difference / kMostDifference;

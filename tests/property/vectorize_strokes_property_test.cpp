@@ -27,6 +27,12 @@ void report(const char* what, const Recovered& r) {
         std::printf("    %s %s at %.1f, %.1f\n", miss.authored ? "missed" : "false", miss.path ? "path" : "node", miss.place.x, miss.place.y);
 }
 
+Recovered traced(DrawnMap& map, const char* what) {
+    Recovered r = recovered_from(map.take());
+    report(what, r);
+    return r;
+}
+
 void expect_whole(const Tally& tally, const char* what) {
     EXPECT_EQ(tally.authored, tally.matched) << what;
     EXPECT_EQ(tally.recovered, tally.matched) << what;
@@ -44,8 +50,7 @@ TEST(VectorizeStrokes, StemsEndInsideTheStrokeTheyMeet) {
         map.draw(map.pens().groove(random(5, 9), kDepth), polyline({c - toward(along, 50), c + toward(along, 50)}));
         map.draw(map.pens().groove(random(3.5, 6), kDepth), polyline({c, c + toward(along + degrees(random(60, 120)), 50)}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("stems", r);
+    const Recovered r = traced(map, "stems");
     expect_whole(nodes(r, NodeKind::tee), "tees");
     expect_whole(r.structure.ends(), "ends");
     expect_whole(r.structure.paths, "paths");
@@ -59,8 +64,7 @@ TEST(VectorizeStrokes, ArcsEndWhereTheyEnd) {
         const double from = random(0, 6.28);
         map.draw(map.pens().groove(random(4, 7), kDepth), arc(map.field(i), random(25, 50), from, from + random(1.0, 4.5)));
     }
-    const Recovered r = recovered_from(map.take());
-    report("arcs", r);
+    const Recovered r = traced(map, "arcs");
     EXPECT_EQ(r.contour.lost, 0.0);
     EXPECT_LT(r.contour.rms, 0.02);
 }
@@ -73,8 +77,7 @@ TEST(VectorizeStrokes, ShortTightArcsStayArcs) {
         const double from = random(0, 6.28);
         map.draw(map.pens().groove(random(3, 4.5), kDepth), arc(map.field(i), random(8, 12), from, from + random(1.2, 1.7)));
     }
-    const Recovered r = recovered_from(map.take());
-    report("short arcs", r);
+    const Recovered r = traced(map, "short arcs");
     expect_whole(r.structure.paths, "paths");
     EXPECT_EQ(r.contour.lost, 0.0);
     EXPECT_LT(r.contour.rms, 0.03);
@@ -93,8 +96,7 @@ TEST(VectorizeStrokes, NearStrokesAreStrokes) {
                   : map.draw(pen, polyline({c - toward(along, 40), c + toward(along, 40)}));
         }
     }
-    const Recovered r = recovered_from(map.take());
-    report("near strokes", r);
+    const Recovered r = traced(map, "near strokes");
     expect_whole(r.structure.paths, "paths");
     EXPECT_EQ(r.contour.lost, 0.0);
     EXPECT_LT(r.contour.rms, 0.03);
@@ -108,8 +110,7 @@ TEST(VectorizeStrokes, AcuteCornersStayOnePath) {
         const Vec2 c = map.field(i) - toward(along + 0.5 * angle, 25);
         map.draw(map.pens().groove(random(4, 7), kDepth), polyline({c + toward(along, 55), c, c + toward(along + angle, 55)}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("acute corners", r);
+    const Recovered r = traced(map, "acute corners");
     expect_found(r.structure.paths, "paths");
     expect_found(nodes(r, NodeKind::corner), "corners");
     EXPECT_LT(r.contour.rms, 0.02);
@@ -128,8 +129,7 @@ TEST(VectorizeStrokes, RidgesGoOnBehindGrooves) {
         const Vec2 across = toward(along + degrees(90), 56);
         map.draw(map.pens().groove(random(4, 6), 0.4), polyline({c - across, c + across}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("ridges behind grooves", r);
+    const Recovered r = traced(map, "ridges behind grooves");
     expect_whole(r.structure.paths, "paths");
     EXPECT_EQ(r.contour.lost, 0.0);
 }
@@ -144,8 +144,7 @@ TEST(VectorizeStrokes, AxisAlignedWallsSharperThanATexel) {
             const Vec2 along = i % 2 ? Vec2{50, 0} : Vec2{0, 50};
             map.draw(map.pens().groove(4.0 + i, kDepth), polyline({c - along, c + along}));
         }
-        const Recovered r = recovered_from(map.take());
-        report("axis-aligned walls", r);
+        const Recovered r = traced(map, "axis-aligned walls");
         expect_whole(r.structure.paths, "paths");
         EXPECT_LT(r.contour.rms, 0.01);
         EXPECT_LT(r.contour.p999, 0.05);
@@ -162,8 +161,7 @@ TEST(VectorizeStrokes, CornersStaySharp) {
         map.draw(map.pens().groove(random(4, 7), kDepth),
                  polyline({tip + toward(base, 55), tip, tip + toward(base + degrees(inner[i]), 55)}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("corners", r);
+    const Recovered r = traced(map, "corners");
     expect_found(nodes(r, NodeKind::corner), "corners");
     EXPECT_LT(r.contour.p999, 0.05);
 }
@@ -177,8 +175,7 @@ TEST(VectorizeStrokes, AcuteFansKeepTheirStrokes) {
         for (const double angle : {-random(22, 30), 0.0, random(22, 30)})
             map.draw(map.pens().groove(4.0, kDepth), polyline({tip, tip + toward(base + degrees(angle), 90)}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("fans", r);
+    const Recovered r = traced(map, "fans");
     expect_found(r.structure.ends(), "ends");
     EXPECT_EQ(r.contour.lost, 0.0);
 }
@@ -192,8 +189,7 @@ TEST(VectorizeStrokes, CrossingsAreNoPairsOfStems) {
         map.draw(map.pens().groove(random(4, 7), kDepth), polyline({c - toward(along, 50), c + toward(along, 50)}));
         map.draw(map.pens().groove(random(4, 7), kDepth), polyline({c - toward(across, 50), c + toward(across, 50)}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("crossings", r);
+    const Recovered r = traced(map, "crossings");
     expect_whole(nodes(r, NodeKind::cross), "crossings");
     expect_whole(r.structure.paths, "paths");
     EXPECT_LT(r.contour.rms, 0.02);
@@ -209,8 +205,7 @@ TEST(VectorizeStrokes, ArcsGoOnThroughCrossings) {
         map.draw(map.pens().groove(random(4, 6), kDepth), arc(c, random(26, 40), along + 1.0, along + 1.0 + random(3.5, 4.2)));
         map.draw(map.pens().groove(random(6, 9), kDepth), polyline({c - way, c + way}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("arcs through crossings", r);
+    const Recovered r = traced(map, "arcs through crossings");
     EXPECT_GE(r.structure.percent(), 65.0);
     EXPECT_LT(r.contour.rms, 0.03);
 }
@@ -225,8 +220,7 @@ TEST(VectorizeStrokes, StrokesCrossAtSmallAngles) {
         map.draw(map.pens().groove(thin, kDepth), polyline({c - toward(along, 46), c + toward(along, 46)}));
         map.draw(map.pens().groove(thin * random(1, 1.5), kDepth), polyline({c - toward(across, 46), c + toward(across, 46)}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("small angles", r);
+    const Recovered r = traced(map, "small angles");
     expect_whole(nodes(r, NodeKind::cross), "crossings");
     expect_whole(r.structure.paths, "paths");
     EXPECT_LT(r.contour.rms, 0.02);
@@ -243,8 +237,7 @@ TEST(VectorizeStrokes, HexagonsMeetInThrees) {
             for (const double angle : {-30.0, 30.0, 90.0})
                 map.draw(pen, polyline({c + toward(degrees(angle), kEdge), c + toward(degrees(angle + 60), kEdge)}));
         }
-    const Recovered r = recovered_from(map.take());
-    report("hexagons", r);
+    const Recovered r = traced(map, "hexagons");
     expect_whole(nodes(r, NodeKind::wye), "wyes");
     EXPECT_EQ(r.contour.lost, 0.0);
 }
@@ -258,8 +251,7 @@ TEST(VectorizeStrokes, WideFlatGroovesAreFoundOnce) {
         map.draw(map.pens().groove(14.0 + 6.0 * i, kDepth),
                  polyline({map.field(i) - toward(along, 40), map.field(i) + toward(along, 40)}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("wide grooves", r);
+    const Recovered r = traced(map, "wide grooves");
     expect_whole(r.structure.paths, "paths");
     EXPECT_LT(r.contour.rms, 0.02);
 }
@@ -277,8 +269,7 @@ TEST(VectorizeStrokes, TapersAreOnePathEach) {
                                 : arc(c, random(36, 46), along, along + random(2.5, 4.0));
         map.draw(map.pens().groove(random(9, 12), kDepth), stroke.taper(widths[i]));
     }
-    const Recovered r = recovered_from(map.take());
-    report("tapers", r);
+    const Recovered r = traced(map, "tapers");
     expect_whole(r.structure.paths, "paths");
     EXPECT_EQ(r.contour.lost, 0.0);
     EXPECT_LT(r.contour.rms, 0.05);
@@ -294,8 +285,7 @@ TEST(VectorizeStrokes, RidgesCrossOverAndUnder) {
         map.draw(map.pens().ridge(8.0, 0.5), polyline({c - toward(along, 50), c + toward(along, 50)}));
         map.draw(map.pens().ridge(7.0, 0.35), polyline({c - toward(across, 50), c + toward(across, 50)}));
     }
-    const Recovered r = recovered_from(map.take());
-    report("over and under", r);
+    const Recovered r = traced(map, "over and under");
     expect_found(nodes(r, NodeKind::cross), "crossings");
     expect_whole(r.structure.paths, "paths");
     EXPECT_LT(r.contour.rms, 0.01);
