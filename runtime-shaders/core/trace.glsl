@@ -307,8 +307,10 @@ ivec2 burin_next_cell(ivec2 index, int skip, int axis, float t, BURIN_INOUT(Buri
     return next - tile * burin_map.cells;
 }
 
-// Follows the ray from drop t0 until it meets the surface or has fallen to t1.
+// Follows the ray from drop t0 until it meets the surface or has fallen to t1. At the lowest point there is always surface.
 BurinHit burin_trace(BurinRay start, float t0, float t1) {
+    // Ground that lies there is met before the ray ends.
+    if (t1 >= burin_map.depth) t1 = burin_map.depth * (1.0f + 4.0f * BURIN_SAME_DROP);
     BurinHit hit = burin_begin(start, t1);
     vec2 size = burin_map.size;
     vec2 p = start.origin + start.slope * t0;

@@ -82,6 +82,21 @@ TEST(DecoderTest, StepsThroughCellCentres) {
     }
 }
 
+// Rays that fall to the lowest point there is, on bare ground, after some cells.
+TEST(DecoderTest, GroundAtTheLowestPointIsMet) {
+    const PreparedPattern pattern = prepare(floor_pattern(), {.cell_size = 0.1});
+    const Decoder decoder(pattern.textures, pattern.detail);
+    Random random(kSeed);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec2 slope = random.direction() * random.between(0, 20);
+        const Vec2 foot{random.between(0.65, 1.05), random.between(0.1, 0.55)};
+        const DecodedHit hit = decoder.trace(foot - slope * kDepth, slope);
+        if (hit.drop < 0.999 * kDepth) continue;  // a wall stood before
+        ASSERT_TRUE(hit.met) << foot.x << ", " << foot.y;
+        ASSERT_GT(hit.normal[2], 0.9999) << foot.x << ", " << foot.y << ", slope " << length(slope);
+    }
+}
+
 // Knots, hairpins, near-parallel lines, steps in steps: what nobody would author.
 class RandomCoreTest : public ::testing::TestWithParam<int> {};
 

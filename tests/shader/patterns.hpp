@@ -183,6 +183,16 @@ inline Pattern plateau_pattern() {
     return p;
 }
 
+// Plateaus on ground at the lowest point there is, as white letters on black make it; a pit that reaches it too.
+inline Pattern floor_pattern() {
+    Pattern p = base(kDepth);
+    p.profiles = {cliff(0.01, -kDepth), cliff(0.01, kDepth), step(0.02, -0.5 * kDepth)};
+    p.paths = {polyline({{0.1, 0.1}, {0.6, 0.12}, {0.55, 0.6}, {0.15, 0.55}}, 0, true),
+               polyline({{0.25, 0.25}, {0.45, 0.25}, {0.45, 0.45}, {0.25, 0.45}}, 1, true), circle({0.75, 0.75}, 0.15, 2)};
+    p.paths[1].level = kDepth;
+    return p;
+}
+
 // Steps through the centres of cells of a tenth: upright and level, along diagonals, and corners that meet there.
 inline Pattern stripes_pattern() {
     Pattern p = base();
@@ -253,6 +263,7 @@ inline std::vector<NamedPattern> authored_patterns() {
             {"curves", curve_pattern()},
             {"wrapped", wrapped_pattern()},
             {"plateaus", plateau_pattern()},
+            {"floor", floor_pattern()},
             {"overhang", overhang_pattern()},
             {"scaled", scaled_pattern()},
             {"clamped", clamped_pattern()}};
