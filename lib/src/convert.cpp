@@ -19,10 +19,8 @@ constexpr double kAccidentShare = 0.1;  // explained: paths that reach less are 
 // A step of the refinement looks at the texels within reach of every element: wide profiles on long paths would take
 // long and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a
 // clock, so that the bytes do not depend on the machine.
-bool can_afford_refinement(const Pattern& pattern, const Image& map, double explained) {
-    // Element lengths times profile widths: up to 6 seconds on two cores where the paths are what the map is made of, half
-    // as long where much of it is something else.
-    constexpr double kMade = 0.9, kMostTexels = 1e6, kMostOfOthers = 3e5;
+bool can_afford_refinement(const Pattern& pattern, const Image& map) {
+    constexpr double kMostTexels = 1e6;  // element lengths times profile widths: some 8 seconds on two cores
     const double texels = map.width / pattern.size.x;
     double work = 0.0;
     for (const Path& path : pattern.paths) {
@@ -30,14 +28,14 @@ bool can_afford_refinement(const Pattern& pattern, const Image& map, double expl
         const double reach = (points.back().b - points.front().b) * texels + 2.0;
         for (const Element& element : path.elements) work += curve::arc_length(element) * texels * reach;
     }
-    return work <= (explained >= kMade ? kMostTexels : kMostOfOthers);
+    return work <= kMostTexels;
 }
 
 Unrefined reason_not_to_refine(const Candidate& candidate, const HeightMap& map, const ConvertOptions& options) {
     if (!options.refine) return Unrefined::not_asked;
     if (candidate.traced.pattern.paths.empty()) return Unrefined::no_paths;
     if (!candidate.stats.path_like) return Unrefined::not_path_like;
-    return can_afford_refinement(candidate.traced.pattern, map.image, candidate.stats.explained) ? Unrefined::no : Unrefined::too_much_work;
+    return can_afford_refinement(candidate.traced.pattern, map.image) ? Unrefined::no : Unrefined::too_much_work;
 }
 
 // Whether curves were fitted more loosely than the map shows, or elements given up, for the sake of the budget: then the
@@ -133,7 +131,7 @@ Result<Start> start_within(const HeightMap& map, const ConvertOptions& options, 
                            const Progress& progress, StageClock& clock) {
     auto start = trace_best(map, options, budget, progress, clock);
     if (!start) return start.error();
-    auto finished = finish_candidate(std::move(start->candidate), start->source, options, budget, clock);
+    auto finished = finish_candidate(std::move(start->candidate), start->source, options, start->budget, clock);
     if (!finished) return finished.error();
     start->candidate = std::move(*finished);
     return start;
@@ -206,13 +204,6 @@ Result<Candidate> within_bounds(const HeightMap& map, const ConvertOptions& opti
     if (bytes_bound && first.bytes() > budget) return refuse_bytes(map, options, first.bytes(), progress, clock);
     if (options.max_error <= 0.0 || first.stats.p999 <= options.max_error) return std::move(start->candidate);
     return closer_within(start->source, options, std::move(start->candidate), progress, clock);
-}
-
-// A sixteenth of the map's 8-bit size; above 1024 x 1024 it stays at 63 KiB until that is a 128th, since a map
-// drawn at twice the resolution does not hold twice the paths. A small map may be as rich as one of 512 x 512.
-std::size_t default_budget(std::size_t texels) {
-    constexpr std::size_t kLeast = 16 * 1024, kUsual = 63 * 1024;
-    return std::max(kLeast, std::min(texels / 16, std::max(kUsual, texels / 128)));
 }
 
 // The candidate of a coarser map, with the figures that it reaches against the map itself.

@@ -2,6 +2,7 @@
 #include "convert_internal.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace burin::converting {
 
@@ -14,10 +15,12 @@ VectorizeOptions vectorize_options(const ConvertOptions& options) {
 }
 
 Result<Source> trace_source(const HeightMap& map, std::shared_ptr<const HeightMap> separated, const ConvertOptions& options,
-                            const Progress& progress, StageClock& clock) {
+                            const Progress& progress, StageClock& clock, bool gentle = false) {
     if (!clock.begin("vectorize")) return stopped();
     Source source{map, std::move(separated), {}};
-    auto traced = trace_map(source.detail(), vectorize_options(options), progress);
+    VectorizeOptions vectorize = vectorize_options(options);
+    vectorize.gentle = gentle;
+    auto traced = trace_map(source.detail(), vectorize, progress);
     if (!traced) return traced.error();
     source.traced = std::move(*traced);
     return source;
@@ -40,6 +43,13 @@ double share_to_keep(const PackedTextures& textures, std::size_t budget, int att
 
 }  // namespace
 
+// A sixteenth of the map's 8-bit size; above 1024 x 1024 it stays at 63 KiB until that is a 128th, since a map
+// drawn at twice the resolution does not hold twice the paths. A small map may be as rich as one of 512 x 512.
+std::size_t default_budget(std::size_t texels) {
+    constexpr std::size_t kLeast = 16 * 1024, kUsual = 63 * 1024;
+    return std::max(kLeast, std::min(texels / 16, std::max(kUsual, texels / 128)));
+}
+
 Result<Candidate> fit_within(const Source& source, const ConvertOptions& options, std::size_t budget,
                              const Progress& progress, StageClock& clock, int most_elements) {
     const bool asked = options.max_texture_bytes > 0;
@@ -49,6 +59,7 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
     const std::size_t enough = asked ? budget : budget + budget / 50;
     VectorizeOptions vectorize = vectorize_options(options);
     vectorize.shading = source.shading;
+    vectorize.most_bytes = budget;
     if (most_elements > 0) vectorize.most_elements = most_elements;
     for (int attempt = 1;; ++attempt) {
         if (!clock.begin("vectorize")) return stopped();
@@ -73,25 +84,64 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
 
 namespace {
 
+// Whether a candidate of a map that looked like none of paths is made of paths all the same: of long ones, not of very many.
+bool is_made_of_paths(const Candidate& candidate) {
+    constexpr double kLeastLength = 6.0;  // texels per element
+    const ConvertStats& stats = candidate.stats;
+    return stats.explained >= kClearShare && stats.path_length_texels >= kLeastLength * (stats.lines + stats.quadratics);
+}
+
+// Where the default budget was too small for what the map is made of, twice or four times as much.
+Result<Start> with_room(Start start, const ConvertOptions& options, const Progress& progress, StageClock& clock) {
+    constexpr double kMustGain = 0.04;  // for every doubling
+    const std::size_t usual = default_budget(start.source.map.image.texels.size());
+    for (const std::size_t budget : {2 * usual, 4 * usual}) {
+        const ConvertStats& stats = start.candidate.stats;
+        const bool is_short = start.candidate.most_elements > 0 || start.candidate.traced.is_short;
+        if (options.max_texture_bytes > 0 || !is_short || stats.explained > 1.0 - kMustGain) break;
+        if (budget <= start.budget) continue;
+        auto larger = fit_within(start.source, options, budget, progress, clock);
+        if (!larger) return larger.error();
+        const double must_gain = kMustGain * std::log2(static_cast<double>(budget) / static_cast<double>(start.budget));
+        const bool is_path_like = stats.explained >= kPathLikeShare || is_made_of_paths(*larger);
+        if (!is_path_like || larger->stats.explained < stats.explained + must_gain) continue;
+        start.candidate = std::move(*larger);
+        start.budget = budget;
+    }
+    return start;
+}
+
 // With steps along soft ground, or without where they explain too little for what they cost.
 Result<Start> start_from(Source source, const ConvertOptions& options, std::size_t budget, const Progress& progress,
                          StageClock& clock, int most_elements = 0) {
     constexpr double kMustGain = 0.005;
     auto shaded = fit_within(source, options, budget, progress, clock, most_elements);
     if (!shaded) return shaded.error();
-    if (!shaded->traced.shaded) return Start{std::move(source), std::move(*shaded)};
+    if (!shaded->traced.shaded) return with_room({std::move(source), std::move(*shaded), budget}, options, progress, clock);
     source.shading = false;
     auto plain = fit_within(source, options, budget, progress, clock, shaded->most_elements);
     if (!plain) return plain.error();
     source.shading = shaded->stats.explained > plain->stats.explained + kMustGain;
     Candidate& better = source.shading ? *shaded : *plain;
-    return Start{std::move(source), std::move(better)};
+    return with_room({std::move(source), std::move(better), budget}, options, progress, clock);
 }
 
-}  // namespace
+// The map with steps along gentle borders too, where it is hardly explained otherwise.
+Result<Start> or_gentle(Start start, const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                        const Progress& progress, StageClock& clock) {
+    constexpr double kMustGain = 0.1;
+    if (start.candidate.stats.explained >= kClearShare) return start;
+    auto source = trace_source(map, nullptr, options, progress, clock, true);
+    if (!source) return source.error();
+    auto gentle = start_from(std::move(*source), options, budget, progress, clock);
+    if (!gentle) return gentle.error();
+    const bool gains = gentle->candidate.stats.explained >= start.candidate.stats.explained + kMustGain;
+    return gains && is_made_of_paths(gentle->candidate) ? std::move(*gentle) : std::move(start);
+}
 
-Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
-                         const Progress& progress, StageClock& clock) {
+// With the soft ground of the map, or without where that explains more.
+Result<Start> trace_on_ground(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                              const Progress& progress, StageClock& clock) {
     constexpr double kLeastDeviation = 0.004, kMustGain = 0.002;
     auto source = trace_source(map, nullptr, options, progress, clock);
     if (!source) return source.error();
@@ -108,10 +158,19 @@ Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, st
     auto detail = std::make_shared<const HeightMap>(std::move(separated->detail));
     auto other_source = trace_source(map, std::move(detail), options, progress, clock);
     if (!other_source) return other_source.error();
-    auto other = start_from(std::move(*other_source), options, budget, progress, clock, start->candidate.most_elements);
+    auto other = start_from(std::move(*other_source), options, start->budget, progress, clock, start->candidate.most_elements);
     if (!other) return other.error();
     const bool gains = other->candidate.stats.explained >= start->candidate.stats.explained + kMustGain;
     return gains ? std::move(other) : std::move(start);
+}
+
+}  // namespace
+
+Result<Start> trace_best(const HeightMap& map, const ConvertOptions& options, std::size_t budget,
+                         const Progress& progress, StageClock& clock) {
+    auto start = trace_on_ground(map, options, budget, progress, clock);
+    if (!start) return start;
+    return or_gentle(std::move(*start), map, options, budget, progress, clock);
 }
 
 }  // namespace burin::converting

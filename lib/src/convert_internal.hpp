@@ -82,6 +82,7 @@ struct Source {
 struct Start {
     Source source;
     Candidate candidate;
+    std::size_t budget = 0;  // bytes that it was fitted to: of the default one as many times as pays
 };
 
 // The heights of the textures as they are stored.
@@ -101,6 +102,8 @@ std::size_t bytes_of(const PackedTextures& textures);
 // Of elements and their styles, without cells and lists.
 std::size_t element_bytes(const PackedTextures& textures);
 
+// Bytes of both textures, where none were asked for.
+std::size_t default_budget(std::size_t texels);
 // Fits with ever fewer elements until the textures keep to the budget; a budget that was asked for goes before looks.
 // `most_elements`: as many as kept to it when the same map was traced in another way, or 0.
 Result<Candidate> fit_within(const Source& source, const ConvertOptions& options, std::size_t budget,

@@ -110,9 +110,10 @@ void find_features(const Image& source, Traced& traced) {
     Image flattened = margin > 0 ? crop_margin(map, margin, lattice) : std::move(map);
     map = {};
     std::vector<std::uint8_t> flat = find_flat(flattened, lattice, noise);
-    traced.regions = segment_regions(flattened, lattice, noise, kLeastRegionShare * energy, flat);
+    const MergeOptions merging{noise, kLeastRegionShare * energy, true, traced.gentle};
+    traced.regions = segment_regions(flattened, lattice, merging, flat);
     if (return_islands(source, flattened, traced.lines, lattice, traced.regions, flat, noise))
-        traced.regions = segment_regions(flattened, lattice, noise, kLeastRegionShare * energy, flat);
+        traced.regions = segment_regions(flattened, lattice, merging, flat);
     for (int i = 0; i < lattice.size(); ++i)
         if (flattened.texels[i] != source.texels[i]) traced.changed.push_back({i, flattened.texels[i]});
     traced.changed.shrink_to_fit();
@@ -144,7 +145,7 @@ class Fitting {
     // Gives up the regions that hold less than a share of the map's sum of squares.
     void merge(double share, bool shading) {
         const std::size_t before = regions_.level.size();
-        merge_regions({traced_.damage, share * traced_.energy, shading}, regions_);
+        merge_regions({traced_.damage, share * traced_.energy, shading, traced_.gentle}, regions_);
         if (regions_.level.size() == before && (merged_ || shading)) return;
         merged_ = true;
         fewer_steps_ = trace_steps(map_, traced_.changed, traced_.lattice, regions_);
@@ -201,14 +202,19 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
         if (fitting.expected() <= most()) break;
         if (fitting.is_quick() && fitting.expected() < 2.0 * slack) {
             std::vector<FittedChain> fitted = fitting.fit(result.tolerance);
-            if (static_cast<double>(count_elements(fitted)) <= exact) return fitted;
+            if (static_cast<double>(count_elements(fitted)) <= exact) {
+                result.is_short = options.tolerance == 0.0 && result.tolerance > kUsualTolerance;
+                return fitted;
+            }
         }
         if (options.tolerance > 0.0 || result.tolerance * kLooser > loosest) break;
     }
+    result.is_short = options.tolerance == 0.0 && result.tolerance > kUsualTolerance;
     for (int round = 0; round < 8; ++round) {
         const double lines = fitting.expected() - fitting.expected_steps();
         if (fitting.expected_steps() <= most() - std::min(lines, 0.25 * most())) break;
         share *= 2.0;
+        result.is_short = true;
         fitting.merge(share, options.shading);
         fitting.foretell(result.tolerance);
     }
@@ -216,8 +222,8 @@ std::vector<FittedChain> fit_within(const Traced& traced, const Image& map, cons
 }
 
 // Lines that explain little per element go, the least useful first, until the rest is within the budget. Steps hold the
-// regions together and stay.
-void drop_useless(std::vector<FittedChain>& chains, double energy, std::size_t most_elements) {
+// regions together and stay. True when any went for the budget alone.
+bool drop_useless(std::vector<FittedChain>& chains, double energy, std::size_t most_elements) {
     const double least = 2e-5 * energy;
     const auto worth = [](const FittedChain& f) { return f.gain / static_cast<double>(f.elements.size()); };
     const auto removable = [](const FittedChain& f) { return f.chain.kind != ChainKind::step; };
@@ -225,7 +231,7 @@ void drop_useless(std::vector<FittedChain>& chains, double energy, std::size_t m
                                 [&](const FittedChain& f) { return removable(f) && worth(f) < least; }),
                  chains.end());
     std::size_t count = count_elements(chains);
-    if (count <= most_elements) return;
+    if (count <= most_elements) return false;
     std::vector<const FittedChain*> order;
     for (const FittedChain& f : chains)
         if (removable(f)) order.push_back(&f);
@@ -241,6 +247,7 @@ void drop_useless(std::vector<FittedChain>& chains, double energy, std::size_t m
     for (std::size_t c = 0; c < chains.size(); ++c)
         if (!drop[c]) kept.push_back(std::move(chains[c]));
     chains = std::move(kept);
+    return !order.empty();
 }
 
 // Texels and map values to metres. Ground level 0 is the level of the largest region.
@@ -322,13 +329,13 @@ Status check_options(const HeightMap& map, const VectorizeOptions& options) {
     return Done{};
 }
 
-// Elements whose texels, lists and share of the grid fit into a sixteenth of the map's size.
+// Elements whose texels, lists and share of the grid fit into the bytes.
 std::size_t element_budget(const Lattice& lattice, const VectorizeOptions& options) {
+    constexpr std::size_t kElementBytes = 36;
     if (options.most_elements > 0) return static_cast<std::size_t>(options.most_elements);
-    const double bytes = static_cast<double>(lattice.size()) / 16.0;
     // A small map may be as rich as one of 512 x 512.
-    const double most = std::max(16.0 * 1024.0, std::min(bytes, 60.0 * 1024.0 + bytes / 16.0));
-    return static_cast<std::size_t>(most / 36.0);
+    const std::size_t usual = std::max<std::size_t>(16 * 1024, static_cast<std::size_t>(lattice.size()) / 16);
+    return (options.most_bytes > 0 ? options.most_bytes : usual) / kElementBytes;
 }
 
 Wrap choose_wrap(const Image& map, WrapChoice choice, int threads) {
@@ -379,6 +386,7 @@ Result<TracedMap> trace_map(const HeightMap& map, const VectorizeOptions& option
     traced->noise = estimate_noise(map.image, traced->lattice);
     traced->damage = std::max(traced->noise, estimate_ringing(map.image, traced->lattice));
     traced->energy = detail_variance(map.image, wrap, traced->lattice.threads) * static_cast<double>(map.image.texels.size());
+    traced->gentle = options.gentle;
     if (progress && !progress("vectorize", 0.05)) return stopped();
     find_features(map.image, *traced);
     return TracedMap{std::move(traced)};
@@ -403,7 +411,7 @@ Result<Vectorized> fit_traced_map(const TracedMap& found, const HeightMap& map, 
     land_tees(fitted, lattice, result.tolerance);
     if (!proceed(0.6)) return stopped();
     const ProfileSet set = measure_profiles(fitted, map.image, lattice, regions, profile_options(traced, options));
-    drop_useless(fitted, traced.energy, budget);
+    result.is_short |= drop_useless(fitted, traced.energy, budget);
     choose_caps(fitted, set, map.image, lattice, regions);
     if (!proceed(0.8)) return stopped();
     const Wrap wrap = lattice.wrap ? Wrap::repeat : Wrap::clamp;

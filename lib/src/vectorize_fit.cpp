@@ -18,6 +18,12 @@ double chain_length(const std::vector<Element>& elements) {
     return sum;
 }
 
+// A line that is drawn beside its place by half of its width explains nothing.
+double tolerance_for(const Chain& chain, double tolerance) {
+    if (chain.kind == ChainKind::step) return tolerance;
+    return std::min(tolerance, std::max(kUsualTolerance, 0.35 * chain.half_width));
+}
+
 FitOptions fit_options(const Chain& chain, double tolerance) {
     FitOptions options;
     options.tolerance = tolerance;
@@ -178,7 +184,7 @@ Result<FitResult> fit_curves(const Chain& chain, const Image& map, const Lattice
 }  // namespace
 
 std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, const Image& map, const Lattice& lattice,
-                                    double tolerance, int threads) {
+                                    double loosest, int threads) {
     std::vector<FittedChain> fitted(chains.size());
     // Curve fitting takes some 20 microseconds a point on ragged rims; where there are very many, corners have to do.
     constexpr std::size_t kMostCurvePoints = 120000;
@@ -186,6 +192,7 @@ std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, const Imag
     for (const Chain& chain : chains) points += chain.points.size();
     const bool curves = points <= kMostCurvePoints;
     for_each_piece(chains.size(), threads, [&](std::size_t c) {
+        const double tolerance = tolerance_for(chains[c], loosest);
         const Result<FitResult> fit = curves ? fit_curves(chains[c], map, lattice, tolerance)
                                              : Result<FitResult>(FitResult{{}, {}, {}, 1e9, 1e9});
         if (!fit) return;  // all points coincide: nothing to draw
@@ -218,7 +225,7 @@ void untangle_steps(std::vector<FittedChain>& chains, const Lattice& lattice, do
 
 std::size_t foretell_elements(const std::vector<Chain>& chains, double tolerance) {
     std::size_t sum = 0;
-    for (const Chain& chain : chains) sum += count_as_curves(fit_polyline(chain, tolerance));
+    for (const Chain& chain : chains) sum += count_as_curves(fit_polyline(chain, tolerance_for(chain, tolerance)));
     return sum;
 }
 

@@ -151,6 +151,7 @@ struct Traced {
     double noise = 0.0;   // see Vectorized
     double damage = 0.0;  // the greater of noise and ringing
     double energy = 0.0;
+    bool gentle = false;  // see VectorizeOptions
     std::vector<Chain> lines, steps;
     Changed changed;  // what the map without its lines has otherwise than the map
     Regions regions;
@@ -240,14 +241,15 @@ std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, do
 
 // Plateaus. Regions whose sum of squares against a neighbour is below `least_energy` join it; merge_regions does that with
 // a greater one to regions that exist. measure_regions fills all but `part` for regions that are labelled 0 .. level.size().
-Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
-                        const std::vector<std::uint8_t>& flat);
-void measure_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
-                     const std::vector<std::uint32_t>& label, Regions& regions);
 struct MergeOptions {
     double noise = 0.0, least_energy = 0.0;
     bool shading = true;  // levels that soft ground passes stay borders
+    bool gentle = false;  // see VectorizeOptions
 };
+Regions segment_regions(const Image& map, const Lattice& lattice, const MergeOptions& options,
+                        const std::vector<std::uint8_t>& flat);
+void measure_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
+                     const std::vector<std::uint32_t>& label, Regions& regions);
 void merge_regions(const MergeOptions& options, Regions& regions);
 
 // Lines of the map that are plateaus after all, and short ones that it does not show, are put back into the map without

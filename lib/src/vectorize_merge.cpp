@@ -100,14 +100,14 @@ struct Weak {
 // Borders that are no edge: soft ground only passes a level there, the map does not jump, or the difference is within the grain, or one of both regions is
 // too small to be worth a path. The most alike first.
 std::vector<Weak> find_weak(const Regions& regions, const MergeOptions& options) {
-    const double least_jump = std::max(4.0 * options.noise, 0.02);
+    const double least_jump = std::max(4.0 * options.noise, 0.02), least_share = options.gentle ? 0.0 : 0.3;
     std::vector<Weak> weak;
     for (const auto& [pair, border] : regions.borders) {
         const double gap = regions.level[pair.second] - regions.level[pair.first];
         const double jump = border.jump(gap);
         const double small = std::min(regions.area[pair.first], regions.area[pair.second]);
         const double energy = small * gap * gap;
-        if ((!options.shading && border.is_ramp()) || jump < least_jump || jump < 0.3 * std::fabs(gap) || energy < options.least_energy)
+        if ((!options.shading && border.is_ramp()) || jump < std::max(least_jump, least_share * std::fabs(gap)) || energy < options.least_energy)
             weak.push_back({std::fabs(gap), pair.first, pair.second});
     }
     std::stable_sort(weak.begin(), weak.end(), [](const Weak& p, const Weak& q) { return p.strength < q.strength; });

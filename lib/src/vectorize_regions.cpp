@@ -129,15 +129,10 @@ class GrowthQueue {
     std::size_t lowest_ = 0, count_ = 0;
 };
 
-// The parts of flat texels of one level, those of some size as seeds of regions.
-void place_seeds(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
-                 const std::vector<double>& levels, std::uint32_t least_area, Regions& regions,
+// Parts of some size are seeds of regions, at their mean.
+void plant_seeds(const Image& map, const Lattice& lattice, const Parts& parts, Regions& regions,
                  std::vector<std::uint32_t>& label) {
-    const LevelFinder level_of(levels);
-    const Parts parts = find_parts(lattice, false, [&](int x, int y) -> std::uint8_t {
-        const std::size_t i = static_cast<std::size_t>(y) * lattice.width + x;
-        return flat[i] ? static_cast<std::uint8_t>(1 + level_of(map.texels[i])) : 0;
-    });
+    constexpr std::uint32_t kLeastArea = 6;
     std::vector<double> sum(parts.count, 0.0);
     std::vector<std::uint32_t> area(parts.count, 0), number(parts.count, kNone);
     for_each_run(parts, [&](int y, const Run& run) {
@@ -146,14 +141,26 @@ void place_seeds(const Image& map, const Lattice& lattice, const std::vector<std
         area[run.part] += static_cast<std::uint32_t>(run.end - run.begin);
     });
     for (std::uint32_t p = 0; p < parts.count; ++p) {
-        if (area[p] < least_area) continue;
+        if (area[p] < kLeastArea) continue;
         number[p] = static_cast<std::uint32_t>(regions.level.size());
         regions.level.push_back(sum[p] / area[p]);
     }
     for_each_run(parts, [&](int y, const Run& run) {
+        if (number[run.part] == kNone) return;
         std::uint32_t* row = &label[static_cast<std::size_t>(y) * lattice.width];
         std::fill(row + run.begin, row + run.end, number[run.part]);
     });
+}
+
+// The parts of flat texels of one level.
+void plant_plateaus(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
+                    const std::vector<double>& levels, Regions& regions, std::vector<std::uint32_t>& label) {
+    const LevelFinder level_of(levels);
+    const Parts parts = find_parts(lattice, false, [&](int x, int y) -> std::uint8_t {
+        const std::size_t i = static_cast<std::size_t>(y) * lattice.width + x;
+        return flat[i] ? static_cast<std::uint8_t>(1 + level_of(map.texels[i])) : 0;
+    });
+    plant_seeds(map, lattice, parts, regions, label);
 }
 
 // Texels [begin, end) of a row.
@@ -165,6 +172,65 @@ std::vector<std::vector<Span>> spans_of(const Parts& parts) {
     std::vector<std::vector<Span>> spans(parts.count);
     for_each_run(parts, [&](int y, const Run& run) { spans[run.part].push_back({y, run.begin, run.end}); });
     return spans;
+}
+
+// Connected texels that no region has taken yet.
+Parts find_walls(const Lattice& lattice, const std::vector<std::uint32_t>& label) {
+    return find_parts(lattice, false, [&](int x, int y) -> std::uint8_t {
+        return label[static_cast<std::size_t>(y) * lattice.width + x] == kNone;
+    });
+}
+
+struct Heights {
+    double low = 1e300, high = -1e300;
+
+    void add(double value) { low = std::min(low, value), high = std::max(high, value); }
+};
+
+enum Side : std::uint8_t { neither, above, below };
+
+// Marks the texels of walls that rise above, or fall below, all seeds around them by more than `least`.
+std::vector<std::uint8_t> find_hills(const Image& map, const Lattice& lattice, const Regions& regions,
+                                     const std::vector<std::uint32_t>& label, double least) {
+    const Parts walls = find_walls(lattice, label);
+    std::vector<Heights> rim(walls.count);
+    const auto look = [&](int texel, std::uint32_t wall) {
+        if (texel >= 0 && label[texel] != kNone) rim[wall].add(regions.level[label[texel]]);
+    };
+    for_each_run(walls, [&](int y, const Run& run) {
+        look(lattice.index(run.begin - 1, y), run.part), look(lattice.index(run.end, y), run.part);
+        for (int x = run.begin; x < run.end; ++x) look(lattice.index(x, y - 1), run.part), look(lattice.index(x, y + 1), run.part);
+    });
+    std::vector<std::uint8_t> side(label.size(), neither);
+    for_each_run(walls, [&](int y, const Run& run) {
+        for (std::size_t i = static_cast<std::size_t>(y) * lattice.width + run.begin, end = i + (run.end - run.begin); i < end; ++i)
+            side[i] = map.texels[i] > rim[run.part].high + least ? above : map.texels[i] < rim[run.part].low - least ? below : neither;
+    });
+    return side;
+}
+
+// Domes and pyramids have no flat texels, however high they are: what stands out of the plateaus around it is a region of
+// its own from half of its height on.
+void plant_hills(const Image& map, const Lattice& lattice, Regions& regions, std::vector<std::uint32_t>& label) {
+    constexpr double kLeastShare = 0.1;  // of the map's range: lower ones are grain, or what is left of lines
+    const auto [lowest, highest] = std::minmax_element(map.texels.begin(), map.texels.end());
+    const double least = kLeastShare * (*highest - *lowest);
+    std::vector<std::uint8_t> side = find_hills(map, lattice, regions, label, least);
+    const Parts hills = find_parts(lattice, false, [&](int x, int y) { return side[static_cast<std::size_t>(y) * lattice.width + x]; });
+    std::vector<Heights> heights(hills.count);
+    for_each_run(hills, [&](int y, const Run& run) {
+        for (int x = run.begin; x < run.end; ++x) heights[run.part].add(map.at(x, y));
+    });
+    for_each_run(hills, [&](int y, const Run& run) {
+        const auto [low, high] = heights[run.part];
+        for (int x = run.begin; x < run.end; ++x) {
+            std::uint8_t& of_hill = side[static_cast<std::size_t>(y) * lattice.width + x];
+            const double middle = of_hill == above ? 0.5 * (high + low - least) : 0.5 * (low + high + least);
+            if (of_hill == above ? map.at(x, y) < middle : map.at(x, y) > middle) of_hill = neither;
+        }
+    });
+    plant_seeds(map, lattice, find_parts(lattice, false, [&](int x, int y) { return side[static_cast<std::size_t>(y) * lattice.width + x]; }),
+                regions, label);
 }
 
 // Without the cost per step a middle level would creep along every wall that passes its height.
@@ -198,18 +264,16 @@ void grow_into(const Image& map, const Lattice& lattice, const std::vector<doubl
 // their value, nearest texels first, so that two plateaus meet at half height.
 std::vector<std::uint32_t> grow_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
                                         const std::vector<double>& levels, Regions& regions) {
-    constexpr std::uint32_t kLeastArea = 6;
     std::vector<std::uint32_t> label(map.texels.size(), kNone);
-    place_seeds(map, lattice, flat, levels, kLeastArea, regions, label);
+    plant_plateaus(map, lattice, flat, levels, regions, label);
     if (regions.level.empty()) {
         label.assign(map.texels.size(), 0);
         regions.level.push_back(std::accumulate(map.texels.begin(), map.texels.end(), 0.0) / map.texels.size());
         return label;
     }
+    plant_hills(map, lattice, regions, label);
     // Connected texels without a label are taken from their own rim alone.
-    const Parts walls = find_parts(lattice, false, [&](int x, int y) -> std::uint8_t {
-        return label[static_cast<std::size_t>(y) * lattice.width + x] == kNone;
-    });
+    const Parts walls = find_walls(lattice, label);
     const std::vector<std::vector<Span>> spans = spans_of(walls);
     for_each_piece(spans.size(), lattice.threads, [&](std::size_t wall) {
         thread_local GrowthQueue queue;
@@ -246,7 +310,7 @@ std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, do
     return flat;
 }
 
-Regions segment_regions(const Image& map, const Lattice& lattice, double noise, double least_energy,
+Regions segment_regions(const Image& map, const Lattice& lattice, const MergeOptions& options,
                         const std::vector<std::uint8_t>& flat) {
     const Histogram histogram = make_histogram(map, flat);
     const std::vector<double> levels = choose_levels(histogram, kMostLevels);
@@ -254,7 +318,7 @@ Regions segment_regions(const Image& map, const Lattice& lattice, double noise, 
     std::vector<std::uint32_t> label =
         grow_regions(map, lattice, flat, levels.empty() ? std::vector<double>{0.5} : levels, regions);
     measure_regions(map, lattice, flat, label, regions);
-    merge_regions({noise, least_energy, true}, regions);
+    merge_regions(options, regions);
     // The parts that were joined at once need no numbers of their own.
     for_each_band(lattice.height, lattice.threads, [&](const Band& band) {
         for (std::size_t i = static_cast<std::size_t>(band.begin) * lattice.width,

@@ -43,11 +43,16 @@ struct VectorizeOptions {
     // Greatest distance of a fitted curve from the traced points, texels; 0 chooses it from the map's grain and the
     // byte budget. Range [0, 8].
     double tolerance = 0.0;
-    // Elements the paths may have, 0: as many as keep the textures under 1/16 of the map's 8-bit size.
+    // Elements the paths may have, 0: about as many as fit into `most_bytes`.
     int most_elements = 0;
+    // Both textures together, 0: 1/16 of the map's 8-bit size, at least 16 KiB.
+    std::size_t most_bytes = 0;
     // Whether step paths follow the levels that soft ground passes. On rounded pipes they draw the shading; on a plate
     // that is darker at its rim they are lines where nobody sees one.
     bool shading = true;
+    // Whether step paths also follow borders that rise gently, by less than a third of their height within seven texels:
+    // the half height of domes and cushions. On terrain they are contour lines.
+    bool gentle = false;
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
 
@@ -58,6 +63,7 @@ struct Vectorized {
     double energy = 0.0;              // the map's detail: variance of HP(map) (DESIGN 7) times its texels
     double tolerance = 0.0;           // used for fitting, texels
     double path_length_texels = 0.0;  // of all paths together
+    bool is_short = false;            // paths were given up, or follow the map more loosely, for the sake of `most_bytes`
     bool shaded = false;              // some steps follow soft ground; without `shading` they would not be
 };
 
