@@ -84,11 +84,10 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
 
 namespace {
 
-// Whether a candidate of a map that looked like none of paths is made of paths all the same: of long ones, not of very many.
-bool is_made_of_paths(const Candidate& candidate) {
-    constexpr double kLeastLength = 6.0;  // texels per element
-    const ConvertStats& stats = candidate.stats;
-    return stats.explained >= kClearShare && stats.path_length_texels >= kLeastLength * (stats.lines + stats.quadratics);
+// Whether a candidate that takes more room than usual is made of paths, and not of very many short ones.
+bool deserves_room(const ConvertStats& stats) {
+    constexpr double kLeastLength = 9.0, kNearlyAll = 0.95;  // texels per element; explained: dots are short and many
+    return stats.explained >= kNearlyAll || stats.path_length_texels >= kLeastLength * (stats.lines + stats.quadratics);
 }
 
 // Where the default budget was too small for what the map is made of, twice or four times as much.
@@ -98,13 +97,13 @@ Result<Start> with_room(Start start, const ConvertOptions& options, const Progre
     for (const std::size_t budget : {2 * usual, 4 * usual}) {
         const ConvertStats& stats = start.candidate.stats;
         const bool is_short = start.candidate.most_elements > 0 || start.candidate.traced.is_short;
-        if (options.max_texture_bytes > 0 || !is_short || stats.explained > 1.0 - kMustGain) break;
+        const bool may_be_paths = stats.explained >= kPathLikeShare || stats.paths == 0;
+        if (options.max_texture_bytes > 0 || !is_short || !may_be_paths || stats.explained > 1.0 - kMustGain) break;
         if (budget <= start.budget) continue;
         auto larger = fit_within(start.source, options, budget, progress, clock);
         if (!larger) return larger.error();
         const double must_gain = kMustGain * std::log2(static_cast<double>(budget) / static_cast<double>(start.budget));
-        const bool is_path_like = stats.explained >= kPathLikeShare || is_made_of_paths(*larger);
-        if (!is_path_like || larger->stats.explained < stats.explained + must_gain) continue;
+        if (larger->stats.explained < stats.explained + must_gain || !deserves_room(larger->stats)) continue;
         start.candidate = std::move(*larger);
         start.budget = budget;
     }
@@ -126,17 +125,23 @@ Result<Start> start_from(Source source, const ConvertOptions& options, std::size
     return with_room({std::move(source), std::move(better), budget}, options, progress, clock);
 }
 
-// The map with steps along gentle borders too, where it is hardly explained otherwise.
+// The map with steps along gentle borders too, where it is hardly explained otherwise and few such steps explain nearly all:
+// on rock they are contour lines.
 Result<Start> or_gentle(Start start, const HeightMap& map, const ConvertOptions& options, std::size_t budget,
                         const Progress& progress, StageClock& clock) {
-    constexpr double kMustGain = 0.1;
+    constexpr double kNearlyAll = 0.9, kLoosest = 1.0;  // explained; texels
     if (start.candidate.stats.explained >= kClearShare) return start;
     auto source = trace_source(map, nullptr, options, progress, clock, true);
     if (!source) return source.error();
+    VectorizeOptions vectorize = vectorize_options(options);
+    vectorize.most_bytes = budget;
+    const auto fitted = fit_traced_map(source->traced, map, vectorize, progress);
+    if (!fitted) return fitted.error();
+    // A fit that the budget loosens by so much follows the grain of rock.
+    if (fitted->tolerance > kLoosest || fitted->pattern.paths.empty()) return start;
     auto gentle = start_from(std::move(*source), options, budget, progress, clock);
     if (!gentle) return gentle.error();
-    const bool gains = gentle->candidate.stats.explained >= start.candidate.stats.explained + kMustGain;
-    return gains && is_made_of_paths(gentle->candidate) ? std::move(*gentle) : std::move(start);
+    return gentle->candidate.stats.explained >= kNearlyAll ? std::move(gentle) : std::move(start);
 }
 
 // With the soft ground of the map, or without where that explains more.
