@@ -151,7 +151,7 @@ Result<Start> trace_on_ground(const HeightMap& map, const ConvertOptions& option
     if (start->candidate.most_elements > 0 && start->candidate.stats.explained < kClearShare) return start;
     if (!clock.begin("vectorize")) return stopped();
     // Only a bound on the error asks for closer paths later, and what was traced takes room.
-    if (options.max_error <= 0.0) start->source.traced = {};
+    if (options.max_error <= 0.0) start->source.traced = {}, start->candidate.heights = {};
     auto separated = separate_ground(map, vectorize_options(options));
     if (!separated) return separated.error();
     if (separated->deviation < kLeastDeviation) return start;
