@@ -177,13 +177,15 @@ std::vector<SampleRun> Rasterizer::find_runs(double y, std::vector<RowCrossing>&
 // Levels of texel row y, from those of its rows of samples.
 std::vector<TexelRun> Rasterizer::find_levels(int y) const {
     if (truth_.steps.empty()) return {{region_.width, truth_.outer_level, {}}};
+    const std::vector<Entry>& steps = step_rows_[static_cast<std::size_t>(y / kBucket - first_row_)];
+    // No line crosses the row.
+    if (steps.empty()) return {{region_.width, owner_.ground_at({0.5 * truth_.size.x, (y + 0.5) * texel_.y}), {}}};
     std::vector<RowCrossing> crossings;
     std::vector<std::vector<SampleRun>> rows;
     for (int s = 0; s < samples_; ++s) {
         const double v = (y + (s + 0.5) / samples_) * texel_.y;
         crossings.clear();
-        for (const Entry& entry : step_rows_[static_cast<std::size_t>(y / kBucket - first_row_)])
-            cross_row(entry, v, crossings);
+        for (const Entry& entry : steps) cross_row(entry, v, crossings);
         rows.push_back(find_runs(v, crossings));
     }
     std::vector<TexelRun> texels;
