@@ -15,19 +15,6 @@ constexpr int kBins = 4096;    // of errors, from 0 to kMostBinned of the whole 
 constexpr double kMostBinned = 0.25;
 constexpr int kReach = 2;      // cells that the foretelling of a half looks at on each side
 
-Image halved(const Image& fine, int threads) {
-    Image coarse(fine.width / 2, fine.height / 2);
-    for_each_band(coarse.height, threads, [&](const Band& band) {
-        for (int y = band.begin; y < band.end; ++y) {
-            const float *upper = &fine.texels[std::size_t(2 * y) * fine.width], *lower = upper + fine.width;
-            float* out = &coarse.texels[std::size_t(y) * coarse.width];
-            for (int x = 0; x < coarse.width; ++x)
-                out[x] = 0.25f * ((upper[2 * x] + upper[2 * x + 1]) + (lower[2 * x] + lower[2 * x + 1]));
-        }
-    });
-    return coarse;
-}
-
 // By how much the second half of a cell lies above the cell's mean, from the means of the cells beside it.
 float foretold_rise(float two_before, float before, float after, float two_after) {
     return (22.0f * (after - before) - 3.0f * (two_after - two_before)) * (1.0f / 128.0f);
@@ -109,11 +96,24 @@ bool shows_all(const Image& fine, const Image& coarse, double rounding, const Co
 
 }  // namespace
 
+Image halve_image(const Image& fine, int threads) {
+    Image coarse(fine.width / 2, fine.height / 2);
+    for_each_band(coarse.height, threads, [&](const Band& band) {
+        for (int y = band.begin; y < band.end; ++y) {
+            const float *upper = &fine.texels[std::size_t(2 * y) * fine.width], *lower = upper + fine.width;
+            float* out = &coarse.texels[std::size_t(y) * coarse.width];
+            for (int x = 0; x < coarse.width; ++x)
+                out[x] = 0.25f * ((upper[2 * x] + upper[2 * x + 1]) + (lower[2 * x] + lower[2 * x + 1]));
+        }
+    });
+    return coarse;
+}
+
 Coarsened coarsen_map(const HeightMap& map, const CoarsenOptions& options) {
     Coarsened out;
     const Image* fine = &map.image;
     while (fine->texels.size() >= options.least_texels && fine->width % 2 == 0 && fine->height % 2 == 0) {
-        Image coarse = halved(*fine, options.threads);
+        Image coarse = halve_image(*fine, options.threads);
         if (!shows_all(*fine, coarse, rounding_of(map), options)) break;
         if (!out.map) out.map.emplace();
         out.map->image = std::move(coarse);

@@ -247,38 +247,53 @@ void count_kinds(const Pattern& pattern, ConvertStats& stats) {
     for (const Path& path : pattern.paths) ++*counts[static_cast<std::size_t>(path_kind(pattern, path))];
 }
 
+// A large map at half its sides, a quarter, ...; nothing where it is small.
+std::optional<Image> of_fewer_texels(const Image& map, int threads) {
+    constexpr std::size_t kEnough = 2u << 20;
+    std::optional<Image> fewer;
+    for (const Image* from = &map; from->texels.size() > kEnough && from->width % 2 == 0 && from->height % 2 == 0; from = &*fewer)
+        fewer = halve_image(*from, threads);
+    return fewer;
+}
+
 // The certificate by class. Drawn again only where both classes are there.
-Status share_out(const HeightMap& map, const Candidate& candidate, int threads, ConvertStats& stats) {
+Status share_out(const Image& map, const Candidate& candidate, int threads, ConvertStats& stats) {
     const bool lines = stats.grooves + stats.ridges > 0;
     double steps = lines ? 0.0 : stats.explained;
     if (lines && stats.steps > 0) {
-        // Fewer samples take a third of the time and move the share by less than 0.0005.
-        const auto heights = reconstruct(map, candidate.packed.textures, candidate.packed.detail,
-                                         {.steps_only = true, .samples = samples_for(stats, 2), .threads = threads});
+        // Fewer texels and samples take a small part of the time and move the share by less than 0.0005.
+        const std::optional<Image> fewer = of_fewer_texels(map, threads);
+        const Image& seen = fewer ? *fewer : map;
+        const auto heights = reconstruct(seen, candidate.packed.textures, candidate.packed.detail,
+                                         {.steps_only = true, .samples = 2, .threads = threads});
         if (!heights) return heights.error();
-        steps = compare_heights(*heights, map.image, stats.repeat ? Wrap::repeat : Wrap::clamp, threads).explained;
+        steps = compare_heights(*heights, seen, stats.repeat ? Wrap::repeat : Wrap::clamp, threads).explained;
     }
     stats.shares = {steps, stats.explained - steps, 1.0 - stats.explained};
     return Done{};
 }
 
 // What the stored paths leave, as a normal map.
-Result<Residual> residual_of(const HeightMap& map, const FoundPattern& found, const ConvertOptions& options) {
-    // Fewer samples than the figures of heights take: half the time, and angles within 0.02 degrees.
-    const auto heights = reconstruct(map, found.textures, found.detail, {.samples = samples_for(found.stats, 3), .threads = options.threads});
-    if (!heights) return heights.error();
+Result<Residual> residual_of(const HeightMap& map, const FoundPattern& found, Image heights, const ConvertOptions& options) {
+    if (heights.texels.empty()) {
+        // Fewer samples than the figures of heights take: half the time, and angles within 0.02 degrees.
+        auto drawn = reconstruct(map.image, found.textures, found.detail,
+                                 {.samples = samples_for(found.stats, 3), .threads = options.threads});
+        if (!drawn) return drawn.error();
+        heights = std::move(*drawn);
+    }
     ResidualOptions residual = options.residual;
     residual.threads = options.threads;
     const bool chosen = residual.most_texels != ResidualOptions{}.most_texels;
     if (!chosen && found.stats.explained >= kWellExplained) residual.most_texels = map.image.texels.size() / 64;
     if (found.pattern.paths.empty()) residual.worthwhile = 0.0;
     const Wrap wrap = found.stats.repeat ? Wrap::repeat : Wrap::clamp;
-    return bake_residual(map.image, *heights, found.pattern.size, found.pattern.depth, wrap, residual);
+    return bake_residual(map.image, heights, found.pattern.size, found.pattern.depth, wrap, residual);
 }
 
-}  // namespace
-
-Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& options, const Progress& progress) {
+// The pattern, and what was drawn of it to be measured.
+Result<std::pair<FoundPattern, Image>> find_and_draw(const HeightMap& map, const ConvertOptions& options,
+                                                     const Progress& progress) {
     if (!(options.max_error >= 0.0 && options.max_error <= 1.0))
         return Error{ErrorCode::invalid_argument,
                      "max_error: " + std::to_string(options.max_error) + " of the range; 0 to 1 would work"};
@@ -294,22 +309,30 @@ Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& op
     found.pattern = stored_pattern(std::move(candidate->traced.pattern), candidate->packed.paths);
     count_kinds(found.pattern, found.stats);
     if (!clock.begin("measure")) return stopped();
-    if (const Status shared = share_out(map, *candidate, options.threads, found.stats); !shared) return shared.error();
+    if (const Status shared = share_out(map.image, *candidate, options.threads, found.stats); !shared) return shared.error();
     clock.end();
     found.stats.seconds = std::move(seconds);
     found.textures = std::move(candidate->packed.textures);
     found.detail = std::move(candidate->packed.detail);
-    return found;
+    return std::pair{std::move(found), std::move(candidate->heights)};
+}
+
+}  // namespace
+
+Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& options, const Progress& progress) {
+    auto found = find_and_draw(map, options, progress);
+    if (!found) return found.error();
+    return std::move(found->first);
 }
 
 Result<Converted> convert_map(const HeightMap& map, const Model& model, const ConvertOptions& options,
                               const Progress& progress) {
-    auto found = find_pattern(map, options, progress);
+    auto found = find_and_draw(map, options, progress);
     if (!found) return found.error();
-    Converted converted{std::move(*found), {}, {}};
+    Converted converted{std::move(found->first), {}, {}};
     StageClock clock(progress, converted.stats.seconds);
     if (!clock.begin("bake")) return stopped();
-    auto residual = residual_of(map, converted, options);
+    auto residual = residual_of(map, converted, std::move(found->second), options);
     if (!residual) return residual.error();
     converted.residual = std::move(*residual);
     const Pattern& pattern = converted.pattern;

@@ -153,10 +153,12 @@ Result<Start> trace_on_ground(const HeightMap& map, const ConvertOptions& option
     auto start = start_from(std::move(*source), options, budget, progress, clock);
     if (!start) return start.error();
     // Where the budget is what leaves most of the map unexplained, level ground would not help.
-    if (start->candidate.most_elements > 0 && start->candidate.stats.explained < kClearShare) return start;
+    const double explained = start->candidate.stats.explained;
+    if (start->candidate.most_elements > 0 && explained < kClearShare) return start;
+    if (explained + kMustGain > 1.0) return start;  // nor can it where all is explained
     if (!clock.begin("vectorize")) return stopped();
     // Only a bound on the error asks for closer paths later, and what was traced takes room.
-    if (options.max_error <= 0.0) start->source.traced = {};
+    if (options.max_error <= 0.0) start->source.traced = {}, start->candidate.heights = {};
     auto separated = separate_ground(map, vectorize_options(options));
     if (!separated) return separated.error();
     if (separated->deviation < kLeastDeviation) return start;

@@ -67,6 +67,7 @@ struct Candidate {
     Packed packed;
     ConvertStats stats;  // counts and figures of this candidate
     int most_elements = 0;  // that it took to keep within the budget; 0: all there were
+    Image heights;          // what was measured: the stored paths, drawn; empty where the room was needed
     std::size_t bytes() const { return stats.grid_bytes + stats.data_bytes; }
 };
 
@@ -85,8 +86,8 @@ struct Start {
     std::size_t budget = 0;  // bytes that it was fitted to: of the default one as many times as pays
 };
 
-// The heights of the textures as they are stored.
-Result<Image> reconstruct(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail,
+// The heights of the textures as they are stored, in the map's size.
+Result<Image> reconstruct(const Image& map, const PackedTextures& textures, const PathDetail& detail,
                           const ReconstructOptions& options);
 // Of a map that shows as much in fewer texels, a texel tells as much from fewer samples.
 int samples_for(const ConvertStats& stats, int usual);

@@ -12,9 +12,9 @@ namespace burin::converting {
 
 Error stopped() { return {ErrorCode::invalid_argument, "stopped on request"}; }
 
-Result<Image> reconstruct(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail,
+Result<Image> reconstruct(const Image& map, const PackedTextures& textures, const PathDetail& detail,
                           const ReconstructOptions& options) {
-    auto heights = reconstruct_heights(textures, detail, map.image.width, map.image.height, options);
+    auto heights = reconstruct_heights(textures, detail, map.width, map.height, options);
     // What burin packed breaks the format: a bug, whatever the map.
     if (!heights && heights.error().code == ErrorCode::invalid_input)
         throw std::logic_error("the packed pattern breaks the format: " + heights.error().message);
@@ -49,11 +49,16 @@ std::vector<std::uint32_t> count_elements(const ResolvedPattern& pattern, double
     return paths;
 }
 
-Status measure(const HeightMap& map, const PackedTextures& textures, const PathDetail& detail, int threads,
-               ConvertStats& stats) {
-    const auto heights = reconstruct(map, textures, detail, {.samples = samples_for(stats, ReconstructOptions{}.samples), .threads = threads});
+Status measure(const HeightMap& map, int threads, Candidate& candidate) {
+    ConvertStats& stats = candidate.stats;
+    const PathDetail& detail = candidate.packed.detail;
+    candidate.heights = {};
+    auto heights = reconstruct(map.image, candidate.packed.textures, detail,
+                               {.samples = samples_for(stats, ReconstructOptions{}.samples), .threads = threads});
     if (!heights) return heights.error();
-    const Comparison figures = compare_heights(*heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp, threads);
+    candidate.heights = std::move(*heights);
+    const Comparison figures =
+        compare_heights(candidate.heights, map.image, detail.repeat ? Wrap::repeat : Wrap::clamp, threads);
     stats.explained = figures.explained;
     stats.path_like = figures.explained >= kPathLikeShare;
     stats.rms = figures.rms;
@@ -135,8 +140,7 @@ Result<Candidate> pack_candidate(Vectorized traced, const HeightMap& map, const 
 
 Result<Candidate> measure_candidate(Candidate candidate, const HeightMap& map, const ConvertOptions& options, StageClock& clock) {
     if (!clock.begin("measure")) return stopped();
-    const Packed& packed = candidate.packed;
-    const Status measured = measure(map, packed.textures, packed.detail, options.threads, candidate.stats);
+    const Status measured = measure(map, options.threads, candidate);
     if (!measured) return measured.error();
     return candidate;
 }

@@ -218,7 +218,11 @@ LocalGradient gradient_of(const PreparedElement& e, const Form& form, Vec2 p, co
 
 bool acts_at(const Truth::Prepared& truth, const PreparedElement& e, Vec2 p, double ground, Local& local,
              Form* form) {
-    const Foot foot = find_foot(e, p);
+    return acts_at(truth, e, p, find_foot(e, p), ground, local, form);
+}
+
+bool acts_at(const Truth::Prepared& truth, const PreparedElement& e, Vec2 p, const Foot& foot, double ground, Local& local,
+             Form* form) {
     const Form found = find_form(e, p, foot);
     if (found.kind == FormKind::none) return false;
     local = evaluate_form(e, found, p, foot);

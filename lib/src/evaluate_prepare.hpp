@@ -97,6 +97,9 @@ LocalGradient gradient_of(const PreparedElement& e, const Form& form, Vec2 p, co
 // Whether the element acts at p on the ground `ground`, and how. With a null `form` nobody asks for it.
 bool acts_at(const Truth::Prepared& truth, const PreparedElement& e, Vec2 p, double ground, Local& local,
              Form* form = nullptr);
+// The same where the foot is known.
+bool acts_at(const Truth::Prepared& truth, const PreparedElement& e, Vec2 p, const Foot& foot, double ground, Local& local,
+             Form* form = nullptr);
 
 // Calls visit(shift) for each tile image of e whose box holds p or meets the box [low, high]; the image is e
 // moved by shift. Exactly one image, (0, 0), when the pattern does not repeat.

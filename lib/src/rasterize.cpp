@@ -1,9 +1,10 @@
 // Box-filtered height map of a pattern, asked from the truth's own rules for where elements act.
 //
 // Speed comes from three things, none of which changes the result: buckets of texels list the elements that
-// can act there; the ground of a row of samples comes from its crossings with step path lines; and texels
-// over which the surface is one plane are sampled once. Buckets lie at multiples of kBucket texels of the
-// whole map, so that a region is computed exactly as the same part of the whole.
+// can act there, and blocks within them those that are not hidden; the ground of a row of samples comes from its
+// crossings with step path lines; and blocks over which the surface is one plane are filled. Buckets lie at multiples
+// of kBucket texels of the whole map and are drawn whole, so that a region is computed exactly as the same part of the
+// whole.
 #include <burin/rasterize.hpp>
 
 #include <algorithm>
@@ -14,6 +15,18 @@
 
 namespace burin {
 namespace rasterizing {
+namespace {
+
+// The cross product of a quadratic's first two derivatives is constant: it bends most where it is slowest.
+double greatest_curvature(const PreparedElement& e) {
+    const double square = dot(e.bend, e.bend);
+    if (e.kind == ElementKind::line || square <= 0.0) return 0.0;
+    const Vec2 slowest = e.edge + e.bend * std::clamp(-dot(e.edge, e.bend) / square, 0.0, 1.0);
+    const double speed = std::max(1e-300, length(slowest));
+    return std::abs(cross(e.edge, e.bend)) / (2.0 * speed * speed * speed);
+}
+
+}  // namespace
 
 Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, const RasterizeOptions& options)
     : owner_(pattern, TruthOptions{.level_tolerance = options.level_tolerance}),
@@ -24,11 +37,18 @@ Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, co
       samples_(options.samples),
       threads_(options.threads),
       tolerance_(options.curve_tolerance * pattern.depth),
-      region_(options.region) {
+      asked_(options.region) {
     assert(width >= 1 && height >= 1 && samples_ >= 1 && samples_ <= 64);
-    if (region_.width == 0) region_ = {0, 0, width, height};
-    assert(region_.x >= 0 && region_.y >= 0 && region_.height >= 1);
-    assert(region_.x + region_.width <= width && region_.y + region_.height <= height);
+    if (asked_.width == 0) asked_ = {0, 0, width, height};
+    assert(asked_.x >= 0 && asked_.y >= 0 && asked_.height >= 1);
+    assert(asked_.x + asked_.width <= width && asked_.y + asked_.height <= height);
+    first_column_ = asked_.x / kBucket;
+    last_column_ = (asked_.x + asked_.width - 1) / kBucket;
+    first_row_ = asked_.y / kBucket;
+    last_row_ = (asked_.y + asked_.height - 1) / kBucket;
+    region_ = {first_column_ * kBucket, first_row_ * kBucket, 0, 0};
+    region_.width = std::min(width, (last_column_ + 1) * kBucket) - region_.x;
+    region_.height = std::min(height, (last_row_ + 1) * kBucket) - region_.y;
     texel_ = {truth_.size.x / width, truth_.size.y / height};
     radius_ = 0.5 * length(texel_);
     const double share = (1.0 - 1.0 / (samples_ * samples_)) / 12.0;
@@ -36,41 +56,11 @@ Rasterizer::Rasterizer(const ResolvedPattern& pattern, int width, int height, co
     for (int j = 0; j < samples_; ++j)
         for (int i = 0; i < samples_; ++i)
             around_.push_back({((i + 0.5) / samples_ - 0.5) * texel_.x, ((j + 0.5) / samples_ - 0.5) * texel_.y});
-    first_column_ = region_.x / kBucket;
-    last_column_ = (region_.x + region_.width - 1) / kBucket;
-    first_row_ = region_.y / kBucket;
-    last_row_ = (region_.y + region_.height - 1) / kBucket;
+    for (const PreparedElement& e : truth_.elements) bows_.push_back(greatest_curvature(e));
 }
 
 // ---- buckets
 // -------------------------------------------------------------------------------------------------
-
-// False only where the element acts at no point within `radius` of p.
-bool Rasterizer::can_act(const PreparedElement& e, Vec2 p, double radius) const {
-    const double slack = radius * (1.0 + 1e-9);
-    if (!near_box(e.box, p, slack)) return false;
-    for (const PreparedEnd& end : e.ends) {
-        const bool stops = end.priority == Priority::none;
-        const bool clips = end.priority == Priority::both && end.end == EndShape::clip;
-        if (stops && dot(p - end.vertex, end.outward) > slack) return false;
-        if (clips && dot(p - end.vertex, end.clip_inward) < -slack) return false;
-    }
-    // b' is never nearer to 0 than b, and b changes no faster than p.
-    return std::abs(truth::find_foot(e, p).offset) <= e.reach + slack;
-}
-
-// True only where the element acts at all points within `radius` of p, as far as its reach goes, with b' = b.
-bool Rasterizer::acts_by_offset(const PreparedElement& e, Vec2 p, double radius) const {
-    if (e.scaled || !truth_.profiles[e.profile].height_field || !(e.width0 > 0.0)) return false;
-    for (const PreparedEnd& end : e.ends) {
-        const double a = dot(p - end.vertex, end.outward), c = dot(p - end.vertex, end.clip_inward);
-        const bool stops = end.priority == Priority::none, ends = end.priority == Priority::both;
-        // A clip lets b' = b also beyond the end.
-        const bool clear = ends && end.end == EndShape::clip ? c > radius : a < -radius && (stops || ends || c > radius);
-        if (!clear) return false;
-    }
-    return true;
-}
 
 void Rasterizer::fill_buckets() {
     const Vec2 side = texel_ * kBucket;
@@ -93,11 +83,13 @@ void Rasterizer::fill_buckets() {
             for (int y = y0; y <= y1; ++y) {
                 for (int x = x0; x <= x1; ++x) {
                     const Vec2 centre{(x + 0.5) * side.x, (y + 0.5) * side.y};
-                    if (!can_act(e, centre - shift, radius)) continue;
+                    Foot foot;
+                    const Nearness nearness = nearness_of({&e, shift, false, -1.0}, centre, radius, foot);
+                    if (nearness == Nearness::absent) continue;
                     buckets_[static_cast<std::size_t>(y - first_row_) *
                                  static_cast<std::size_t>(bucket_columns()) +
                              static_cast<std::size_t>(x - first_column_)]
-                        .push_back({&e, shift, acts_by_offset(e, centre - shift, radius)});
+                        .push_back({&e, shift, nearness == Nearness::inside, -1.0});
                 }
             }
         });
@@ -112,7 +104,7 @@ void Rasterizer::fill_step_rows() {
         for (int row = first_row_; row <= last_row_; ++row)
             truth::for_each_image(
                 truth_, e.box, {0.0, row * side}, {truth_.size.x, (row + 1) * side}, [&](Vec2 shift) {
-                    step_rows_[static_cast<std::size_t>(row - first_row_)].push_back({&e, shift, false});
+                    step_rows_[static_cast<std::size_t>(row - first_row_)].push_back({&e, shift, false, -1.0});
                 });
     }
 }
@@ -185,13 +177,15 @@ std::vector<SampleRun> Rasterizer::find_runs(double y, std::vector<RowCrossing>&
 // Levels of texel row y, from those of its rows of samples.
 std::vector<TexelRun> Rasterizer::find_levels(int y) const {
     if (truth_.steps.empty()) return {{region_.width, truth_.outer_level, {}}};
+    const std::vector<Entry>& steps = step_rows_[static_cast<std::size_t>(y / kBucket - first_row_)];
+    // No line crosses the row.
+    if (steps.empty()) return {{region_.width, owner_.ground_at({0.5 * truth_.size.x, (y + 0.5) * texel_.y}), {}}};
     std::vector<RowCrossing> crossings;
     std::vector<std::vector<SampleRun>> rows;
     for (int s = 0; s < samples_; ++s) {
         const double v = (y + (s + 0.5) / samples_) * texel_.y;
         crossings.clear();
-        for (const Entry& entry : step_rows_[static_cast<std::size_t>(y / kBucket - first_row_)])
-            cross_row(entry, v, crossings);
+        for (const Entry& entry : steps) cross_row(entry, v, crossings);
         rows.push_back(find_runs(v, crossings));
     }
     std::vector<TexelRun> texels;
@@ -222,37 +216,19 @@ std::vector<TexelRun> Rasterizer::find_levels(int y) const {
 // ---- the map
 // -------------------------------------------------------------------------------------------------
 
-void Rasterizer::draw_texel_row(int y, Image& image) const {
-    const std::vector<TexelRun> levels = find_levels(y);
-    const std::vector<Entry>* row = &buckets_[static_cast<std::size_t>(y / kBucket - first_row_) *
-                                              static_cast<std::size_t>(bucket_columns())];
-    float* out = &image.at(0, y - region_.y);
-    int x = 0;  // within the region
-    for (const TexelRun& run : levels) {
-        const float empty = value_of(run.level);
-        while (x < run.end) {
-            const int column = (x + region_.x) / kBucket;
-            const std::vector<Entry>& bucket = row[column - first_column_];
-            const int end = std::min(run.end, (column + 1) * kBucket - region_.x);
-            if (bucket.empty() && run.levels.empty()) std::fill(out + x, out + end, empty), x = end;
-            for (; x < end; ++x) out[x] = draw_texel(x + region_.x, y, bucket, run);
-        }
-    }
-}
-
-void Rasterizer::draw_bucket_row(int row, Image& image) const {
-    const int from = std::max(row * kBucket, region_.y);
-    const int to = std::min((row + 1) * kBucket, region_.y + region_.height);
-    for (int y = from; y < to; ++y) draw_texel_row(y, image);
-}
-
 Image Rasterizer::run() {
     fill_buckets();
     fill_step_rows();
     Image image(region_.width, region_.height);
     for_each_piece(static_cast<std::size_t>(last_row_ - first_row_ + 1), threads_,
                    [&](std::size_t row) { draw_bucket_row(first_row_ + static_cast<int>(row), image); });
-    return image;
+    if (asked_.width == region_.width && asked_.height == region_.height) return image;
+    Image out(asked_.width, asked_.height);
+    for (int y = 0; y < out.height; ++y) {
+        const float* const from = &image.at(asked_.x - region_.x, asked_.y - region_.y + y);
+        std::copy(from, from + out.width, &out.at(0, y));
+    }
+    return out;
 }
 
 }  // namespace rasterizing

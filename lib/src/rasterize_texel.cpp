@@ -6,6 +6,29 @@
 
 namespace burin::rasterizing {
 
+namespace {
+
+// The rules of find_form for one end, for all points within `r` of p: `absent` where they keep the element from acting,
+// `inside` where they leave b' = b. `straight`: the element goes on beyond the end as it came.
+Nearness end_says(const PreparedEnd& end, Vec2 p, double offset, double reach, bool straight, double r) {
+    const double beyond = dot(p - end.vertex, end.outward), inwards = dot(p - end.vertex, end.clip_inward);
+    const auto judge = [](bool absent, bool inside) {
+        return absent ? Nearness::absent : inside ? Nearness::inside : Nearness::partly;
+    };
+    if (end.priority == Priority::none) return judge(beyond > r, beyond < -r);
+    if (end.priority == Priority::both) {
+        if (end.end == EndShape::clip) return judge(inwards < -r, inwards > r);
+        const bool no_hip = straight && end.end == EndShape::hip && beyond + r < std::abs(offset) - r;
+        return judge(beyond > reach + r, beyond < -r || no_hip);
+    }
+    const Nearness inner = judge(beyond > r, beyond < -r);
+    const Nearness outer = judge(inwards < -r, inwards > r && (beyond < -r || (straight && end.corner == CornerShape::mitre)));
+    if (std::abs(offset) > r) return (end.priority == Priority::left) == (offset < 0.0) ? outer : inner;
+    return inner == outer ? inner : Nearness::partly;
+}
+
+}  // namespace
+
 // The second derivative of the offset along the path, -k / (1 - k b) with k the curvature; false where the curve is
 // tighter than a texel's radius over `most`.
 bool Rasterizer::find_bend(const PreparedElement& e, const Foot& foot, double most, double& bend) const {
@@ -17,22 +40,23 @@ bool Rasterizer::find_bend(const PreparedElement& e, const Foot& foot, double mo
     return true;
 }
 
-// With b' = b over the whole texel: which facets it meets, and how much a curve bends the plane.
-Cover Rasterizer::cover_by_offset(const PreparedElement& e, const Foot& foot, double ground,
+// With b' = b over a whole block of texels, or one texel: which facets it meets. A curve bends the plane; its mean over one
+// texel is known.
+Cover Rasterizer::cover_by_offset(const PreparedElement& e, const Foot& foot, double ground, int side,
                                   Plane& plane) const {
     const PreparedProfile& profile = truth_.profiles[e.profile];
     const double width = e.width0, height = e.height0;
     const Vec2 t = truth::tangent_on(e, foot.parameter), n = normal_of(t);
-    double reach = 0.5 * (std::abs(n.x) * texel_.x + std::abs(n.y) * texel_.y), bend = 0.0;
+    double reach = 0.5 * side * (std::abs(n.x) * texel_.x + std::abs(n.y) * texel_.y), bend = 0.0;
     if (e.kind == ElementKind::quadratic) {
-        if (!find_bend(e, foot, 0.1, bend)) return Cover::mixed;
+        if (side > 1 || !find_bend(e, foot, 0.1, bend)) return Cover::mixed;
         reach += 0.6 * std::abs(bend) * radius_ * radius_;
     }
     const double low = (foot.offset - reach) / width, high = (foot.offset + reach) / width;
     if (high < profile.low || low > profile.high) return Cover::absent;
     if (e.step && std::abs(foot.offset) <= reach) return Cover::mixed;
-    const double side = foot.offset < 0.0 ? e.left_level : e.right_level;
-    if (std::abs(ground - side) > truth_.level_tolerance) return Cover::absent;
+    const double level = foot.offset < 0.0 ? e.left_level : e.right_level;
+    if (std::abs(ground - level) > truth_.level_tolerance) return Cover::absent;
     for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
         if (low < profile.points[i].b || high > profile.points[i + 1].b) continue;
         const double slope = height * profile.slope[i] / width;
@@ -44,45 +68,78 @@ Cover Rasterizer::cover_by_offset(const PreparedElement& e, const Foot& foot, do
         plane.low = e.level + h - std::abs(slope) * reach;
         plane.high = e.level + h + std::abs(slope) * reach;
         plane.internal = (profile.internal_mask >> i) & 1u;
+        plane.slope = n * slope;
         return Cover::plane;
     }
     return Cover::mixed;
 }
 
-Nearness Rasterizer::nearness_of(const Entry& entry, Vec2 centre, Foot& foot) const {
+// A curve's parameter for the feet within `radius` of the foot's point, or -1 where they may lie on two arcs of it: a
+// point nearer to the curve than its centres of curvature has one nearest point.
+double Rasterizer::guess_of(const PreparedElement& e, const Foot& foot, double radius) const {
+    constexpr double kTame = 0.8;
+    if (e.kind == ElementKind::line) return -1.0;
+    const double bow = bows_[static_cast<std::size_t>(&e - truth_.elements.data())];
+    return bow * (std::abs(foot.offset) + radius) < kTame ? foot.parameter : -1.0;
+}
+
+// From a guess by Newton's steps: of (B(u) - p) . B'(u) = 0, as find_foot.
+Foot Rasterizer::foot_of(const Entry& entry, Vec2 p) const {
+    const PreparedElement& e = *entry.element;
+    // Beyond an end the nearest point may be one of its tangent.
+    const auto beyond = [&](const PreparedEnd& end) { return dot(p - end.vertex, end.outward) >= 0.0; };
+    if (entry.guess < 0.0 || beyond(e.ends[0]) || beyond(e.ends[1])) return truth::find_foot(e, p);
+    const Vec2 c = e.p0 - p;
+    const double k0 = dot(c, e.edge), k1 = dot(c, e.bend) + 2.0 * dot(e.edge, e.edge), k2 = 3.0 * dot(e.edge, e.bend),
+                 k3 = dot(e.bend, e.bend);
+    double u = entry.guess;
+    for (int i = 0; i < 8; ++i) {
+        const double slope = (3.0 * k3 * u + 2.0 * k2) * u + k1, step = (((k3 * u + k2) * u + k1) * u + k0) / slope;
+        if (!(slope > 0.0)) break;
+        u -= step;
+        if (!(u > 0.0 && u < 1.0)) break;
+        // The next step would be the square of this one.
+        if (std::abs(step) < 1e-8) return {dot(p - truth::point_on(e, u), normal_of(truth::tangent_on(e, u))), u};
+    }
+    return truth::find_foot(e, p);
+}
+
+// Whether the offset alone tells the height wherever the ends leave it to act.
+bool Rasterizer::is_plain(const PreparedElement& e) const {
+    return !e.scaled && truth_.profiles[e.profile].height_field && e.width0 > 0.0;
+}
+
+Nearness Rasterizer::nearness_of(const Entry& entry, Vec2 centre, double radius, Foot& foot) const {
     const PreparedElement& e = *entry.element;
     const Vec2 p = centre - entry.shift;
-    const double r = radius_ * (1.0 + 1e-9);
+    const double r = radius * (1.0 + 1e-9);
     if (entry.inside && e.kind == ElementKind::line) {
         foot = {dot(p - e.p0, normal_of(e.tangent)), 0.5};
         return std::abs(foot.offset) > e.reach + r ? Nearness::absent : Nearness::inside;
     }
     if (!near_box(e.box, p, r)) return Nearness::absent;
-    foot = truth::find_foot(e, p);
+    foot = foot_of(entry, p);
     if (std::abs(foot.offset) > e.reach + r) return Nearness::absent;
     if (entry.inside) return Nearness::inside;
+    Nearness all = is_plain(e) ? Nearness::inside : Nearness::partly;
     for (const PreparedEnd& end : e.ends) {
-        const double a = dot(p - end.vertex, end.outward), c = dot(p - end.vertex, end.clip_inward);
-        const bool stops = end.priority == Priority::none;
-        const bool caps = end.priority == Priority::both && end.end != EndShape::clip;
-        const bool clips = end.priority == Priority::both && end.end == EndShape::clip;
-        if (stops && a > r) return Nearness::absent;
-        if (clips && c < -r) return Nearness::absent;
-        if (caps && a > e.reach + r) return Nearness::absent;
+        const Nearness one = end_says(end, p, foot.offset, e.reach, e.kind == ElementKind::line, r);
+        if (one == Nearness::absent) return one;
+        if (one == Nearness::partly) all = one;
     }
-    return acts_by_offset(e, p, r) ? Nearness::inside : Nearness::partly;
+    return all;
 }
 
-// min(max(ground, adds), cuts) where one plane rules over the whole texel; false where planes cross in it.
-bool Rasterizer::merge_planes(const std::vector<Plane>& planes, double ground, double& mean) const {
-    Plane base{ground, ground, ground, false};
+// min(max(ground, adds), cuts) where one plane rules over all of it; false where planes cross in it.
+bool Rasterizer::merge_planes(const std::vector<Plane>& planes, double ground, Plane& ruler) const {
+    Plane base{ground, ground, ground, false, {}};
     for (const Plane& plane : planes) {  // highest base
         if (plane.low >= base.high)
             base = plane;
         else if (plane.high > base.low)
             return false;
     }
-    Plane cut{1e300, 1e300, 1e300, true};
+    Plane cut{1e300, 1e300, 1e300, true, {}};
     for (const Plane& plane : planes) {  // lowest cut
         if (!plane.internal) continue;
         if (plane.high <= cut.low)
@@ -90,9 +147,9 @@ bool Rasterizer::merge_planes(const std::vector<Plane>& planes, double ground, d
         else if (plane.low < cut.high)
             return false;
     }
-    if (cut.low < base.high && cut.high > base.low && !(cut.middle == base.middle && cut.low == base.low))
-        return false;
-    mean = std::min(base.middle, cut.middle);
+    const bool same = cut.middle == base.middle && cut.low == base.low && cut.slope == base.slope;
+    if (cut.low < base.high && cut.high > base.low && !same) return false;
+    ruler = cut.middle < base.middle ? cut : base;
     return true;
 }
 
@@ -103,7 +160,7 @@ void Rasterizer::sample_entry(const Entry& entry, Vec2 centre, const TexelRun& r
     Local local;
     for (std::size_t k = 0; k < around_.size(); ++k) {
         const Vec2 p = centre + around_[k] - entry.shift;
-        if (!near_box(e.box, p, 0.0) || !truth::acts_at(truth_, e, p, run.level_of(k), local)) continue;
+        if (!near_box(e.box, p, 0.0) || !truth::acts_at(truth_, e, p, foot_of(entry, p), run.level_of(k), local)) continue;
         const double b = local.offset / local.width;
         for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
             if (!(profile.points[i].b <= b && b < profile.points[i + 1].b)) continue;
@@ -237,19 +294,19 @@ float Rasterizer::draw_texel(int x, int y, const std::vector<Entry>& bucket, con
     for (const Entry& entry : bucket) {
         Acting a{entry, {}, false};
         Plane plane;
-        const Nearness nearness = nearness_of(entry, centre, a.foot);
+        const Nearness nearness = nearness_of(entry, centre, radius_, a.foot);
         if (nearness == Nearness::absent) continue;
         a.inside = nearness == Nearness::inside;
         const Cover cover =
-            uniform && a.inside ? cover_by_offset(*entry.element, a.foot, run.level, plane) : Cover::mixed;
+            uniform && a.inside ? cover_by_offset(*entry.element, a.foot, run.level, 1, plane) : Cover::mixed;
         if (cover == Cover::absent) continue;
         acting.push_back(a);
         planes.push_back(plane);
         mixed = mixed || cover == Cover::mixed;
         height_field = height_field && truth_.profiles[entry.element->profile].height_field;
     }
-    double mean = 0.0;
-    if (!mixed && merge_planes(planes, run.level, mean)) return value_of(mean);
+    Plane ruler;
+    if (!mixed && merge_planes(planes, run.level, ruler)) return value_of(ruler.middle);
     return value_of(height_field ? mean_of_samples(centre, acting, run) : mean_of_surface(centre, acting, run));
 }
 

@@ -41,6 +41,23 @@ std::vector<Entry> entries_of(const std::vector<ElementUnknowns>& elements, cons
     return entries;
 }
 
+// By row and column. Stable: equal places are summed in the order of the parts.
+std::vector<Entry> sorted(const std::vector<Entry>& entries, int rows) {
+    std::vector<std::size_t> place(static_cast<std::size_t>(rows) + 1, 0);  // of the row's next entry
+    for (const Entry& entry : entries) ++place[static_cast<std::size_t>(entry.row) + 1];
+    std::partial_sum(place.begin(), place.end(), place.begin());
+    std::vector<Entry> out(entries.size());
+    for (const Entry& entry : entries) out[place[static_cast<std::size_t>(entry.row)]++] = entry;
+    std::size_t begin = 0;
+    for (int row = 0; row < rows; ++row) {
+        const std::size_t end = place[static_cast<std::size_t>(row)];  // by now
+        std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(begin), out.begin() + static_cast<std::ptrdiff_t>(end),
+                         [](const Entry& a, const Entry& b) { return a.column < b.column; });
+        begin = end;
+    }
+    return out;
+}
+
 }  // namespace
 
 NormalEquations::NormalEquations(int unknowns, const std::vector<ElementUnknowns>& elements,
@@ -53,11 +70,7 @@ NormalEquations::NormalEquations(int unknowns, const std::vector<ElementUnknowns
         for (std::size_t e = 0; e < part.gradients.size(); ++e)
             for (std::size_t k = 0; k < part.gradients[e].size(); ++k)
                 gradient_[elements[e].unknowns[k]] += part.gradients[e][k];
-    std::vector<Entry> entries = entries_of(elements, prediction);
-    // Stable: equal places are summed in the order of the parts.
-    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-        return a.row != b.row ? a.row < b.row : a.column < b.column;
-    });
+    const std::vector<Entry> entries = sorted(entries_of(elements, prediction), unknowns);
     int last_row = -1, last_column = -1;
     for (const Entry& entry : entries) {
         if (entry.row == last_row && entry.column == last_column) {

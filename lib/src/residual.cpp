@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include <burin/format/texels.hpp>
@@ -97,32 +98,39 @@ struct Coded {
 
 // Every `step`th code, counted from that next to level.
 std::uint8_t code_of(float part, int step = 1) {
-    const long code = 127 + step * std::lround((std::clamp(part, -1.0f, 1.0f) * 127.5f + 0.5f) / static_cast<float>(step));
+    // Rounded as std::lround does, which is a call.
+    const double scaled = (std::clamp(part, -1.0f, 1.0f) * 127.5f + 0.5f) / static_cast<float>(step);
+    const long code = 127 + step * static_cast<long>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);
     return static_cast<std::uint8_t>(std::clamp(code, 0L, 255L));
 }
 
 float value_of(std::uint8_t code) { return static_cast<float>(code) / 127.5f - 1.0f; }
 
 // How far a scale's codes are off, squared: a slope that stands out turns the normal less than one near level ground.
-double coding_error(const SlopeGrid& grid, float scale) {
-    double sum = 0.0;
+double coding_error(const SlopeGrid& grid, float scale, int threads) {
     const auto off = [&](float value) {
         const float error = value_of(code_of(value / scale)) * scale - value;
         return error * error / ((1.0f + value * value) * (1.0f + value * value));
     };
-    for (const Slope& s : grid.slopes) sum += static_cast<double>(off(s.x) + off(s.y));
-    return sum;
+    std::vector<double> sums(static_cast<std::size_t>(grid.height), 0.0);
+    for_each_band(grid.height, threads, [&](Band band) {
+        for (int y = band.begin; y < band.end; ++y) {
+            const Slope* const row = &grid.slopes[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width)];
+            for (int x = 0; x < grid.width; ++x) sums[static_cast<std::size_t>(y)] += static_cast<double>(off(row[x].x) + off(row[x].y));
+        }
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 // The scale that spends the 8 bits best: that of the steepest slope, or one that cuts it off.
-float best_scale(const SlopeGrid& grid) {
+float best_scale(const SlopeGrid& grid, int threads) {
     float steepest = 0.0f;
     for (const Slope& s : grid.slopes) steepest = std::max({steepest, std::abs(s.x), std::abs(s.y)});
     float best = std::max(steepest, 1e-6f);
-    double least = coding_error(grid, best);
+    double least = coding_error(grid, best, threads);
     for (int halvings = 1; halvings <= 4; ++halvings) {
         const float trial = std::max(steepest, 1e-6f) / static_cast<float>(1 << halvings);
-        const double error = coding_error(grid, trial);
+        const double error = coding_error(grid, trial, threads);
         if (error < least) least = error, best = trial;
     }
     return best;
@@ -207,7 +215,7 @@ std::optional<Coded> choose(const Scene& scene, const ResidualOptions& options, 
     double least = error_without;
     for (const int halvings : allowed_sizes(scene.map, needed ? options.most_texels : welcome_texels(scene, options))) {
         SlopeGrid grid = fields.fit(halvings);
-        tried.push_back(encode(grid, best_scale(grid)));
+        tried.push_back(encode(grid, best_scale(grid, scene.threads)));
         tried.back().error = normal_error(scene, &grid);
         if (halvings == 0) coarsen(scene, fields, options.tolerance / 2.0, tried.back());
         least = std::min(least, tried.back().error);

@@ -77,13 +77,12 @@ class BlurredProfile {
     void look_up(double u, double& h, double& sum) const {
         h = 0.0;
         sum = u <= points_.front().b ? 0.0 : sums_.back();
-        for (std::size_t k = 1; k < points_.size(); ++k) {
-            if (u < points_[k - 1].b || u >= points_[k].b) continue;
-            const double t = (u - points_[k - 1].b) / (points_[k].b - points_[k - 1].b);
-            h = points_[k - 1].h + t * (points_[k].h - points_[k - 1].h);
-            sum = sums_[k - 1] + 0.5 * (h + points_[k - 1].h) * (u - points_[k - 1].b);
-            return;
-        }
+        if (!(u >= points_.front().b && u < points_.back().b)) return;
+        const auto after = std::upper_bound(points_.begin(), points_.end(), u, [](double at, const ProfilePoint& p) { return at < p.b; });
+        const std::size_t k = static_cast<std::size_t>(after - points_.begin());
+        const double t = (u - points_[k - 1].b) / (points_[k].b - points_[k - 1].b);
+        h = points_[k - 1].h + t * (points_[k].h - points_[k - 1].h);
+        sum = sums_[k - 1] + 0.5 * (h + points_[k - 1].h) * (u - points_[k - 1].b);
     }
 
     const std::vector<ProfilePoint>& points_;
@@ -137,7 +136,8 @@ std::vector<std::uint8_t> find_contested(const std::vector<FittedChain>& chains,
 class ScaleFit {
   public:
     ScaleFit(const Course& course, const BlurredProfile& profile, const std::vector<Sample>& samples)
-        : course_(course), profile_(profile), samples_(samples), scales_(course.stations), evidence_(course.stations) {}
+        : course_(course), profile_(profile), samples_(samples), seen_(samples.size()), scales_(course.stations),
+          evidence_(course.stations) {}
 
     void run() {
         for (int i = 0; i < kIterations; ++i) {
@@ -174,15 +174,27 @@ class ScaleFit {
         return scale.height * profile_.value(s.offset, scale.width);
     }
 
-    void gather() {
-        std::fill(evidence_.begin(), evidence_.end(), Evidence{});
-        const double usual = 2.0 * std::sqrt(error() / std::max<std::size_t>(1, samples_.size())) + 1e-9;
-        for (const Sample& s : samples_) {
+    // Residuals and derivatives of all samples; returns the squared error.
+    double look() {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
+            const Sample& s = samples_[i];
             const Scale scale = scale_at(s);
             double by_width = 0.0;
             const double value = profile_.value(s.offset, scale.width, by_width);
-            const double by[2] = {value, scale.height * by_width};
-            const double residual = s.value - scale.height * value;
+            seen_[i] = {{value, scale.height * by_width}, s.value - scale.height * value};
+            sum += seen_[i].residual * seen_[i].residual;
+        }
+        return sum;
+    }
+
+    void gather() {
+        std::fill(evidence_.begin(), evidence_.end(), Evidence{});
+        const double usual = 2.0 * std::sqrt(look() / std::max<std::size_t>(1, samples_.size())) + 1e-9;
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
+            const Sample& s = samples_[i];
+            const double* const by = seen_[i].by;
+            const double residual = seen_[i].residual;
             const double weight = std::min(1.0, usual / std::max(1e-12, std::fabs(residual)));
             const int k = std::min(static_cast<int>(s.station), course_.stations - 1), n = course_.after(k);
             const double share[2] = {1.0 - (s.station - k), s.station - k};
@@ -195,8 +207,8 @@ class ScaleFit {
                 e.gradient[0] += w * by[0] * residual;
                 e.gradient[1] += w * by[1] * residual;
             }
-            for (int i : {0, 1})
-                for (int j : {0, 1}) evidence_[k].next[2 * i + j] += weight * share[0] * share[1] * by[i] * by[j];
+            for (int a : {0, 1})
+                for (int b : {0, 1}) evidence_[k].next[2 * a + b] += weight * share[0] * share[1] * by[a] * by[b];
         }
     }
 
@@ -243,6 +255,11 @@ class ScaleFit {
     const Course& course_;
     const BlurredProfile& profile_;
     const std::vector<Sample>& samples_;
+    struct Seen {
+        double by[2] = {0.0, 0.0};  // derivatives by height and width scale
+        double residual = 0.0;
+    };
+    std::vector<Seen> seen_;  // by sample
     std::vector<Scale> scales_;
     std::vector<Evidence> evidence_;
 };

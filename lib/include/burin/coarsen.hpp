@@ -31,6 +31,9 @@ struct Coarsened {
     int halvings = 0;              // its sides are those of the given map over 2^halvings
 };
 
+// Means of two by two texels; the last column or row of an odd number is left out.
+Image halve_image(const Image& fine, int threads = 0);
+
 // Requires: values in [0, 1]. Sides that are odd are not halved.
 // Ensures: no halving of what most_error and most_edge_error forbid; equal results for any number of threads.
 // Cost: about 5 ns a texel.
