@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kThinnest = 0.05;             // texels: no profile gets narrower
 constexpr double kSameOffset = 1e-4;           // texels
+// One iteration narrows the wall of a step that is wider than the second, in texels, to this share at most: where a wall has
+// closed, the map does not show that this was too much, since opening looks the same to first order as turning over.
+constexpr double kMostNarrowing = 0.5;
+constexpr double kWideWall = 0.25;
 constexpr double kSameHeight = 1e-6;           // map scale
 // 1 / deviation^2 of what is expected before the map is asked: a point to move by a texel, a profile's offset by half
 // a texel, its height by a twentieth of the relief. The errors of neighbouring texels are alike, so against a profile
@@ -65,6 +69,12 @@ double box_width(const Profile& profile) {
         most = std::max({most, std::abs(a.h), std::abs(b.h)});
     }
     return most > 0.0 ? area / most : 0.0;
+}
+
+// The share of the offsets' step that narrows a wall by not too much.
+double share_of_offsets(const Profile& before, const Profile& after) {
+    const double was = before.points.back().b - before.points.front().b, is = after.points.back().b - after.points.front().b;
+    return was > kWideWall && is < kMostNarrowing * was ? (1.0 - kMostNarrowing) * was / (was - is) : 1.0;
 }
 
 // Facets may close, not turn over; a step keeps its line within its walls.
@@ -413,6 +423,9 @@ void Parameters::apply_profiles(const std::vector<double>& step, Pattern& patter
             profile.points[k].b += sum_of(profiles_[i].b[k], step);
             profile.points[k].h += sum_of(profiles_[i].h[k], step);
         }
+        if (const double share = was_step ? share_of_offsets(before, profile) : 1.0; share < 1.0)
+            for (std::size_t k = 0; k < profile.points.size(); ++k)
+                profile.points[k].b = before.points[k].b + share * (profile.points[k].b - before.points[k].b);
         keep_order(profile, was_step);
         if (profile.points.back().b - profile.points.front().b < kThinnest)
             for (std::size_t k = 0; k < profile.points.size(); ++k) profile.points[k].b = before.points[k].b;

@@ -204,6 +204,7 @@ std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, const Imag
         const bool smooth = sound && 3 * texels_of(fit->elements) <= 4 * texels_of(polyline);
         fitted[c].elements = smooth ? fit->elements : polyline;
         drop_knots(fitted[c].elements);
+        straighten_tails(fitted[c]);
         fitted[c].length = chain_length(fitted[c].elements);
     });
     fitted.erase(std::remove_if(fitted.begin(), fitted.end(), [](const FittedChain& f) { return f.elements.empty(); }),

@@ -11,6 +11,9 @@ namespace burin::vectorizing {
 std::vector<FittedChain> fit_chains(const std::vector<Chain>& chains, const Image& map, const Lattice& lattice,
                                     double tolerance, int threads);
 
+// Where a line that ends in a node or on another line turns about within less than its width, it goes straight on.
+void straighten_tails(FittedChain& fitted);
+
 // Contours of one map never cross; where their fits do, they are fitted again by lines ever closer to the points.
 void untangle_steps(std::vector<FittedChain>& chains, const Lattice& lattice, double tolerance);
 

@@ -71,12 +71,23 @@ class ShapeFinder {
         shapes_.push_back(std::move(shape));
     }
 
-    // The shape that most points of a line lie in.
+    // The shape that most points of a line lie in, or most of what a spot took out of the map: the middle of a spot that
+    // was seen in a corner of a shape may lie beside it.
     std::int32_t shape_of(const Chain& line) const {
-        std::map<std::int32_t, std::size_t> count;
-        for (const Vec2 p : line.points) ++count[shape_at_[lattice_.nearest(p)]];
-        for (const auto& [shape, points] : count)
-            if (2 * points > line.points.size()) return shape;
+        std::map<std::int32_t, double> weight;
+        const auto add_changes = [&](int texel, Vec2) {
+            weight[shape_at_[texel]] += std::fabs(source_.texels[texel] - flattened_.texels[texel]);
+        };
+        for (const Vec2 p : line.points) {
+            if (line.spot == Spot::no)
+                weight[shape_at_[lattice_.nearest(p)]] += 1.0;
+            else
+                for_each_texel_near(p, lattice_, static_cast<int>(std::ceil(line.half_width)), add_changes);
+        }
+        double sum = 0.0;
+        for (const auto& [shape, w] : weight) sum += w;
+        for (const auto& [shape, w] : weight)
+            if (2.0 * w > sum) return shape;
         return kNoShape;
     }
     const std::vector<Shape>& shapes() const { return shapes_; }

@@ -228,20 +228,6 @@ double amplitude(const Section& section) {
     return most;
 }
 
-void reverse_chain(FittedChain& fitted) {
-    std::reverse(fitted.elements.begin(), fitted.elements.end());
-    for (Element& e : fitted.elements) {
-        std::swap(e.p0, e.p2);
-        std::swap(e.width0, e.width1);
-        std::swap(e.height0, e.height1);
-    }
-    Chain& chain = fitted.chain;
-    std::reverse(chain.points.begin(), chain.points.end());
-    std::swap(chain.left_region, chain.right_region);
-    std::swap(chain.start_tie, chain.end_tie);
-    chain.winding = -chain.winding;
-}
-
 struct Cluster {
     Section section;
     Glance glance;
@@ -381,6 +367,20 @@ double height_at(const Profile& profile, double b) {
             return w > 0.0 ? p[k - 1].h + (p[k].h - p[k - 1].h) * (b - p[k - 1].b) / w : p[k].h;
         }
     return p.back().h;
+}
+
+void reverse_chain(FittedChain& fitted) {
+    std::reverse(fitted.elements.begin(), fitted.elements.end());
+    for (Element& e : fitted.elements) {
+        std::swap(e.p0, e.p2);
+        std::swap(e.width0, e.width1);
+        std::swap(e.height0, e.height1);
+    }
+    Chain& chain = fitted.chain;
+    std::reverse(chain.points.begin(), chain.points.end());
+    std::swap(chain.left_region, chain.right_region);
+    std::swap(chain.start_tie, chain.end_tie);
+    chain.winding = -chain.winding;
 }
 
 ProfileSet measure_profiles(std::vector<FittedChain>& chains, const Image& map, const Lattice& lattice,

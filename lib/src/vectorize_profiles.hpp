@@ -16,6 +16,9 @@ struct FittedChain {
     bool round_start = false, round_end = false;  // see choose_caps
 };
 
+// The same curve from its other end.
+void reverse_chain(FittedChain& fitted);
+
 inline constexpr double kSectionStep = 0.5;
 
 struct ProfileSet {

@@ -246,6 +246,27 @@ double cross_distance(const Pattern& a, const Pattern& b) {
     return worst;
 }
 
+// The wall of a step that closed in one iteration would not open again.
+TEST(RefineParameters, WallsNarrowByDegrees) {
+    Pattern pattern;
+    pattern.size = {64.0, 64.0};
+    pattern.depth = pattern.base_offset = 1.0;
+    pattern.outer_level = 0.8;
+    pattern.profiles.push_back({{{-1.0, 0.0}, {1.0, -0.35}}, {}});
+    Path path;
+    path.closed = true;
+    path.level = 0.8;
+    const Vec2 corners[] = {{20, 20}, {40, 20}, {40, 40}, {20, 40}};
+    for (int i = 0; i < 4; ++i) path.elements.push_back({ElementKind::line, corners[i], {}, corners[(i + 1) % 4]});
+    pattern.paths.push_back(path);
+    refinement::Parameters parameters(pattern, RefineOptions{});
+    const std::vector<ProfilePoint>& points = pattern.profiles[0].points;
+    const double width = points.back().b - points.front().b;
+    parameters.apply(std::vector<double>(static_cast<std::size_t>(parameters.count()), 5.0), 0.1, pattern);
+    EXPECT_LT(points.back().b - points.front().b, width);
+    EXPECT_GE(points.back().b - points.front().b, 0.49 * width);
+}
+
 TEST(Refine, FindsTheDrawingAgain) {
     for (const bench::Walls walls : {bench::Walls{6.0, 2.0}, bench::Walls{6.0, 0.4}, bench::Walls{2.0, 0.0}}) {
         SCOPED_TRACE(::testing::Message() << "groove " << walls.groove << ", wall " << walls.wall);

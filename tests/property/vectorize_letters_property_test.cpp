@@ -2,6 +2,12 @@
 // plateaus of their height, the same strokes are lines.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include <burin/vectorize.hpp>
+
+#include "../../bench/vectorizer/damage.hpp"
+#include "../unit/temporary_folder.hpp"
 #include "drawn_map.hpp"
 
 namespace burin::testing {
@@ -54,6 +60,54 @@ TEST(VectorizeLetters, RaisedLettersAreRims) {
 TEST(VectorizeLetters, EngravedLettersAreRims) {
     Uniform random(seed_of_run());
     expect_rims("engraved", recovered_from(word(random, -random(0.15, 0.45), 1.5)), 0.08);
+}
+
+// Rows of letters of strokes as thin as 4 texels on a sheet of 512; the large ones say that they are areas.
+Pattern page(Uniform& random) {
+    bench::Drawing page(512, 2.0, 0.2);
+    const Pen pen = page.step(0.6);
+    const std::vector<Stroke> all = letters();
+    for (int i = 0; i < 15; ++i) page.draw(pen, all[i % 4].placed(80, 0.0, {20.0 + 97.0 * (i % 5), 16.0 + 92.0 * (i / 5)}));
+    for (int row = 0; row < 5; ++row)
+        for (int i = 0; i < 11; ++i) {
+            const Vec2 corner{20.0 + 44.0 * i + random(0, 4), 288.0 + 44.0 * row + random(0, 4)};
+            page.draw(pen, all[(row + i) % 4].placed(random(22, 28), degrees(random(-3, 3)), corner));
+        }
+    return page.take();
+}
+
+void expect_every_letter(const Image& map, const Pattern& drawing) {
+    HeightMap height_map;
+    height_map.image = map;
+    VectorizeOptions options;
+    options.size = drawing.size, options.depth = drawing.depth;
+    const auto found = vectorize_map(height_map, options);
+    ASSERT_TRUE(found.ok());
+    const auto is_rim = [](const Path& path) { return path.closed; };
+    EXPECT_EQ(found->pattern.paths.size(), drawing.paths.size());
+    EXPECT_TRUE(std::all_of(found->pattern.paths.begin(), found->pattern.paths.end(), is_rim));
+}
+
+// What is left of a letter of thin strokes, once its foot was taken for a line, is no spot.
+TEST(VectorizeLetters, FeetLeaveNoSpots) {
+    Uniform random(seed_of_run() + 1);
+    const Stroke e = polyline({{0, 0}, {0.6, 0}, {0.6, 0.18}, {0.2, 0.18}, {0.2, 0.41}, {0.52, 0.41}, {0.52, 0.59}, {0.2, 0.59},
+                               {0.2, 0.82}, {0.6, 0.82}, {0.6, 1}, {0, 1}}, true);
+    bench::Drawing page(512, 2.0, 0.2);
+    const Pen pen = page.step(0.6);
+    for (int i = 0; i < 10; ++i) page.draw(pen, e.placed(80, 0.0, {20.0 + 97.0 * (i % 5), 16.0 + 92.0 * (i / 5)}));
+    for (int i = 0; i < 24; ++i)
+        page.draw(pen, e.placed(random(23.5, 24.5), 0.0, {20.0 + 40.0 * (i % 12) + random(0, 1), 290.0 + 42.0 * (i / 12) + random(0, 1)}));
+    const Pattern drawing = page.take();
+    expect_every_letter(bench::map_of(drawing, 512, 8), drawing);
+}
+
+// Ringing leaves no level texels in thin strokes.
+TEST(VectorizeLetters, JpegLosesNoThinLetter) {
+    Uniform random(seed_of_run());
+    const Pattern drawing = page(random);
+    const test::TemporaryFolder folder;
+    expect_every_letter(bench::damaged(bench::map_of(drawing, 512, 8), bench::Damage::jpeg, folder.path()).image, drawing);
 }
 
 // Where the ramp passes a level its line may join that of a letter, but no letter is lost.

@@ -57,6 +57,23 @@ TEST(VectorizeStrokes, StemsEndInsideTheStrokeTheyMeet) {
     EXPECT_LT(r.contour.rms, 0.02);
 }
 
+// The middle of both leads astray for as long as they overlap.
+TEST(VectorizeStrokes, WideStemsRunStraightIntoThinStrokes) {
+    Uniform random(seed_of_run());
+    DrawnMap map(2.0);
+    for (int i = 0; i < 4; ++i) {
+        const double along = random(0, 6.28), turn = degrees(random(30, 45));
+        const Vec2 c = map.field(i) + toward(along, 16);
+        map.draw(map.pens().groove(random(3.5, 4), kDepth), polyline({c - toward(along, 60), c + toward(along, 30)}));
+        map.draw(map.pens().groove(random(7, 8), kDepth), polyline({c, c + toward(along + 3.14159 - turn, 60)}));
+    }
+    const Recovered r = recovered_from(map.take());
+    report("wide stems", r);
+    expect_whole(nodes(r, NodeKind::tee), "tees");
+    expect_whole(r.structure.paths, "paths");
+    EXPECT_LT(r.contour.rms, 0.02);
+}
+
 TEST(VectorizeStrokes, ArcsEndWhereTheyEnd) {
     Uniform random(seed_of_run());
     DrawnMap map(1.0);
