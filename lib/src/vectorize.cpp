@@ -111,9 +111,9 @@ void find_features(const Image& source, Traced& traced) {
     map = {};
     std::vector<std::uint8_t> flat = find_flat(flattened, lattice, noise);
     const MergeOptions merging{noise, kLeastRegionShare * energy, true, traced.gentle};
-    traced.regions = segment_regions(flattened, lattice, merging, flat);
+    traced.regions = segment_regions(source, flattened, lattice, merging, flat);
     if (return_islands(source, flattened, traced.lines, lattice, traced.regions, flat, noise))
-        traced.regions = segment_regions(flattened, lattice, merging, flat);
+        traced.regions = segment_regions(source, flattened, lattice, merging, flat);
     for (int i = 0; i < lattice.size(); ++i)
         if (flattened.texels[i] != source.texels[i]) traced.changed.push_back({i, flattened.texels[i]});
     traced.changed.shrink_to_fit();

@@ -245,14 +245,14 @@ void extend_to_lines(std::vector<Chain>& chains, const Image& response, const La
 // 1 for texels of flat ground, where the values around differ by no more than the grain explains.
 std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, double noise);
 
-// Plateaus. Regions whose sum of squares against a neighbour is below `least_energy` join it; merge_regions does that with
-// a greater one to regions that exist. measure_regions fills all but `part` for regions that are labelled 0 .. level.size().
+// Plateaus of a map, which is `source` without its lines. Regions whose sum of squares against a neighbour is below
+// `least_energy` join it; merge_regions does that with a greater one to regions that exist. measure_regions fills all but `part` for regions that are labelled 0 .. level.size().
 struct MergeOptions {
     double noise = 0.0, least_energy = 0.0;
     bool shading = true;  // levels that soft ground passes stay borders
     bool gentle = false;  // see VectorizeOptions
 };
-Regions segment_regions(const Image& map, const Lattice& lattice, const MergeOptions& options,
+Regions segment_regions(const Image& source, const Image& map, const Lattice& lattice, const MergeOptions& options,
                         const std::vector<std::uint8_t>& flat);
 void measure_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
                      const std::vector<std::uint32_t>& label, Regions& regions);

@@ -129,9 +129,9 @@ class GrowthQueue {
     std::size_t lowest_ = 0, count_ = 0;
 };
 
-// Parts of some size are seeds of regions, at their mean.
+// Parts of some size are seeds of regions, at their mean: all, or those that `is_seed` says.
 void plant_seeds(const Image& map, const Lattice& lattice, const Parts& parts, Regions& regions,
-                 std::vector<std::uint32_t>& label) {
+                 std::vector<std::uint32_t>& label, const std::vector<std::uint8_t>& is_seed = {}) {
     constexpr std::uint32_t kLeastArea = 6;
     std::vector<double> sum(parts.count, 0.0);
     std::vector<std::uint32_t> area(parts.count, 0), number(parts.count, kNone);
@@ -141,7 +141,7 @@ void plant_seeds(const Image& map, const Lattice& lattice, const Parts& parts, R
         area[run.part] += static_cast<std::uint32_t>(run.end - run.begin);
     });
     for (std::uint32_t p = 0; p < parts.count; ++p) {
-        if (area[p] < kLeastArea) continue;
+        if (area[p] < kLeastArea || (!is_seed.empty() && !is_seed[p])) continue;
         number[p] = static_cast<std::uint32_t>(regions.level.size());
         regions.level.push_back(sum[p] / area[p]);
     }
@@ -161,6 +161,73 @@ void plant_plateaus(const Image& map, const Lattice& lattice, const std::vector<
         return flat[i] ? static_cast<std::uint8_t>(1 + level_of(map.texels[i])) : 0;
     });
     plant_seeds(map, lattice, parts, regions, label);
+}
+
+// Which texels without a label are at one of the levels, give or take a share of what lies between them: its number from 1
+// on, or 0.
+std::vector<std::uint8_t> find_level_texels(const Image& map, const Lattice& lattice, const std::vector<double>& levels,
+                                            const std::vector<std::uint32_t>& label) {
+    constexpr double kNear = 0.12;
+    const LevelFinder level_of(levels);
+    std::vector<double> near(levels.size(), 1e300);
+    for (std::size_t k = 1; k < levels.size(); ++k)
+        for (const std::size_t i : {k - 1, k}) near[i] = std::min(near[i], kNear * (levels[k] - levels[k - 1]));
+    std::vector<std::uint8_t> at(label.size(), 0);
+    for_each_band(lattice.height, lattice.threads, [&](const Band& band) {
+        for (std::size_t i = static_cast<std::size_t>(band.begin) * lattice.width,
+                         end = static_cast<std::size_t>(band.end) * lattice.width; i < end; ++i) {
+            if (label[i] != kNone) continue;
+            const int k = level_of(map.texels[i]);
+            if (std::fabs(map.texels[i] - levels[k]) < near[k]) at[i] = static_cast<std::uint8_t>(k + 1);
+        }
+    });
+    return at;
+}
+
+// What lies a little beside a part of texels that are at one level.
+struct Rim {
+    int above = 0, below = 0;
+    bool is_other = false;  // the part goes on as a seed, or was beside a line
+    bool is_one_sided() const { return std::max(above, below) > 0.9 * (above + below); }
+};
+
+// Per part of `parts`, whose kind is the number of its level as in `at`; `source` is the map with its lines.
+std::vector<Rim> look_at_rims(const Image& source, const Image& map, const Lattice& lattice, const std::vector<double>& levels,
+                              const std::vector<std::uint8_t>& at, const std::vector<std::uint32_t>& label, const Parts& parts) {
+    constexpr int kOnWall = 2, kBehindWall = 4;  // texels
+    const LevelFinder level_of(levels);
+    std::vector<Rim> rims(parts.count);
+    for_each_run(parts, [&](int y, const Run& run) {
+        Rim& rim = rims[run.part];
+        for (int x = run.begin; x < run.end; ++x)
+            for (int side = 0; side < 4; ++side) {
+                const int behind = lattice.nearest(x + kBehindWall * kSideX[side], y + kBehindWall * kSideY[side]);
+                rim.is_other |= map.texels[behind] != source.texels[behind];
+                const int j = lattice.index(x + kOnWall * kSideX[side], y + kOnWall * kSideY[side]);
+                if (j < 0 || at[j] == run.kind) continue;
+                rim.is_other |= label[j] != kNone && level_of(map.texels[j]) + 1 == run.kind;
+                ++(map.texels[j] > levels[run.kind - 1] ? rim.above : rim.below);
+            }
+    });
+    return rims;
+}
+
+// A narrow plateau that JPEG left uneven has no flat texels; but it is at a level of the map, two texels wide or more, and
+// all around it the map falls off, or rises: a wall passes a level otherwise. What lines left of themselves, beside where
+// they were taken out of `source`, is none.
+void plant_narrow_plateaus(const Image& source, const Image& map, const Lattice& lattice, const std::vector<double>& levels,
+                          Regions& regions, std::vector<std::uint32_t>& label) {
+    if (levels.size() < 2) return;
+    const std::vector<std::uint8_t> at = find_level_texels(map, lattice, levels, label);
+    const Parts parts = find_parts(lattice, false, [&](int x, int y) -> std::uint8_t {
+        const std::uint8_t k = at[static_cast<std::size_t>(y) * lattice.width + x];
+        if (k == 0 || at[lattice.nearest(x + 1, y)] != k) return 0;
+        return at[lattice.nearest(x, y + 1)] == k && at[lattice.nearest(x + 1, y + 1)] == k ? k : 0;
+    });
+    std::vector<std::uint8_t> is_seed;
+    for (const Rim& rim : look_at_rims(source, map, lattice, levels, at, label, parts))
+        is_seed.push_back(!rim.is_other && rim.is_one_sided());
+    plant_seeds(map, lattice, parts, regions, label, is_seed);
 }
 
 // Texels [begin, end) of a row.
@@ -262,8 +329,8 @@ void grow_into(const Image& map, const Lattice& lattice, const std::vector<doubl
 
 // Connected flat texels of one level are seeds; the rest of the texels are taken by the seed whose level is nearest to
 // their value, nearest texels first, so that two plateaus meet at half height.
-std::vector<std::uint32_t> grow_regions(const Image& map, const Lattice& lattice, const std::vector<std::uint8_t>& flat,
-                                        const std::vector<double>& levels, Regions& regions) {
+std::vector<std::uint32_t> grow_regions(const Image& source, const Image& map, const Lattice& lattice,
+                                        const std::vector<std::uint8_t>& flat, const std::vector<double>& levels, Regions& regions) {
     std::vector<std::uint32_t> label(map.texels.size(), kNone);
     plant_plateaus(map, lattice, flat, levels, regions, label);
     if (regions.level.empty()) {
@@ -271,6 +338,7 @@ std::vector<std::uint32_t> grow_regions(const Image& map, const Lattice& lattice
         regions.level.push_back(std::accumulate(map.texels.begin(), map.texels.end(), 0.0) / map.texels.size());
         return label;
     }
+    plant_narrow_plateaus(source, map, lattice, levels, regions, label);
     plant_hills(map, lattice, regions, label);
     // Connected texels without a label are taken from their own rim alone.
     const Parts walls = find_walls(lattice, label);
@@ -310,13 +378,13 @@ std::vector<std::uint8_t> find_flat(const Image& map, const Lattice& lattice, do
     return flat;
 }
 
-Regions segment_regions(const Image& map, const Lattice& lattice, const MergeOptions& options,
+Regions segment_regions(const Image& source, const Image& map, const Lattice& lattice, const MergeOptions& options,
                         const std::vector<std::uint8_t>& flat) {
     const Histogram histogram = make_histogram(map, flat);
     const std::vector<double> levels = choose_levels(histogram, kMostLevels);
     Regions regions;
     std::vector<std::uint32_t> label =
-        grow_regions(map, lattice, flat, levels.empty() ? std::vector<double>{0.5} : levels, regions);
+        grow_regions(source, map, lattice, flat, levels.empty() ? std::vector<double>{0.5} : levels, regions);
     measure_regions(map, lattice, flat, label, regions);
     merge_regions(options, regions);
     // The parts that were joined at once need no numbers of their own.
