@@ -19,8 +19,10 @@ constexpr double kAccidentShare = 0.1;  // explained: paths that reach less are 
 // A step of the refinement looks at the texels within reach of every element: wide profiles on long paths would take
 // long and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a
 // clock, so that the bytes do not depend on the machine.
-bool can_afford_refinement(const Pattern& pattern, const Image& map) {
-    constexpr double kMostTexels = 1e6;  // element lengths times profile widths: some 8 seconds on two cores
+bool can_afford_refinement(const Pattern& pattern, const Image& map, double explained) {
+    // Element lengths times profile widths: up to 8 seconds on two cores where the paths are what the map is made of, half
+    // as much where much of it is something else.
+    constexpr double kMade = 0.9, kMostTexels = 1e6, kMostOfOthers = 5e5;
     const double texels = map.width / pattern.size.x;
     double work = 0.0;
     for (const Path& path : pattern.paths) {
@@ -28,20 +30,14 @@ bool can_afford_refinement(const Pattern& pattern, const Image& map) {
         const double reach = (points.back().b - points.front().b) * texels + 2.0;
         for (const Element& element : path.elements) work += curve::arc_length(element) * texels * reach;
     }
-    return work <= kMostTexels;
+    return work <= (explained >= kMade ? kMostTexels : kMostOfOthers);
 }
 
 Unrefined reason_not_to_refine(const Candidate& candidate, const HeightMap& map, const ConvertOptions& options) {
     if (!options.refine) return Unrefined::not_asked;
     if (candidate.traced.pattern.paths.empty()) return Unrefined::no_paths;
     if (!candidate.stats.path_like) return Unrefined::not_path_like;
-    return can_afford_refinement(candidate.traced.pattern, map.image) ? Unrefined::no : Unrefined::too_much_work;
-}
-
-// Whether curves were fitted more loosely than the map shows, or elements given up, for the sake of the budget: then the
-// refinement has none to add.
-bool is_short_of_bytes(const Candidate& candidate) {
-    return candidate.most_elements > 0 || candidate.traced.tolerance > kUsualTolerance;
+    return can_afford_refinement(candidate.traced.pattern, map.image, candidate.stats.explained) ? Unrefined::no : Unrefined::too_much_work;
 }
 
 // Takes out elements of hardly a texel: where a crossing left a kink, the refinement may fold it, and what lies in the
@@ -66,7 +62,8 @@ RefineOptions refine_options(const Candidate& candidate, const ConvertOptions& o
     RefineOptions refinement = options.refinement;
     refinement.threads = options.threads;
     refinement.damage = candidate.traced.damage;
-    if (is_short_of_bytes(candidate)) refinement.elements = false;
+    // Where bytes are short, the refinement has none to add.
+    if (candidate.most_elements > 0 || candidate.traced.tolerance > kUsualTolerance) refinement.elements = false;
     refinement.most_splits = std::min(refinement.most_splits, room_for_elements(candidate.packed.textures, budget));
     return refinement;
 }
@@ -288,6 +285,9 @@ Result<Residual> residual_of(const HeightMap& map, const FoundPattern& found, Im
     if (!chosen && found.stats.explained >= kWellExplained) residual.most_texels = map.image.texels.size() / 64;
     if (found.pattern.paths.empty()) residual.worthwhile = 0.0;
     const Wrap wrap = found.stats.repeat ? Wrap::repeat : Wrap::clamp;
+    auto baked = bake_residual(map.image, heights, found.pattern.size, found.pattern.depth, wrap, residual);
+    if (chosen || !baked || baked->error <= residual.tolerance) return baked;
+    residual.most_texels = ResidualOptions{}.most_texels;
     return bake_residual(map.image, heights, found.pattern.size, found.pattern.depth, wrap, residual);
 }
 

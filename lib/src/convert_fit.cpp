@@ -84,6 +84,9 @@ Result<Candidate> fit_within(const Source& source, const ConvertOptions& options
 
 namespace {
 
+// Whether curves were fitted more loosely than the map shows, or paths given up, for the sake of the budget.
+bool is_short_of_bytes(const Candidate& candidate) { return candidate.most_elements > 0 || candidate.traced.is_short; }
+
 // Whether a candidate that takes more room than usual is made of paths, and not of very many short ones.
 bool deserves_room(const ConvertStats& stats) {
     constexpr double kLeastLength = 9.0, kNearlyAll = 0.95;  // texels per element; explained: dots are short and many
@@ -96,9 +99,8 @@ Result<Start> with_room(Start start, const ConvertOptions& options, const Progre
     const std::size_t usual = default_budget(start.source.map.image.texels.size());
     for (const std::size_t budget : {2 * usual, 4 * usual}) {
         const ConvertStats& stats = start.candidate.stats;
-        const bool is_short = start.candidate.most_elements > 0 || start.candidate.traced.is_short;
         const bool may_be_paths = stats.explained >= kPathLikeShare || stats.paths == 0;
-        if (options.max_texture_bytes > 0 || !is_short || !may_be_paths || stats.explained > 1.0 - kMustGain) break;
+        if (options.max_texture_bytes > 0 || !is_short_of_bytes(start.candidate) || !may_be_paths || stats.explained > 1.0 - kMustGain) break;
         if (budget <= start.budget) continue;
         auto larger = fit_within(start.source, options, budget, progress, clock);
         if (!larger) return larger.error();
@@ -126,11 +128,11 @@ Result<Start> start_from(Source source, const ConvertOptions& options, std::size
 }
 
 // The map with steps along gentle borders too, where it is hardly explained otherwise and few such steps explain nearly all:
-// on rock they are contour lines.
+// on rock they are contour lines, and where the budget was too small already there would be more of them.
 Result<Start> or_gentle(Start start, const HeightMap& map, const ConvertOptions& options, std::size_t budget,
                         const Progress& progress, StageClock& clock) {
     constexpr double kNearlyAll = 0.9, kLoosest = 1.0;  // explained; texels
-    if (start.candidate.stats.explained >= kClearShare) return start;
+    if (start.candidate.stats.explained >= kClearShare || is_short_of_bytes(start.candidate)) return start;
     auto source = trace_source(map, nullptr, options, progress, clock, true);
     if (!source) return source.error();
     VectorizeOptions vectorize = vectorize_options(options);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <numeric>
 
 #include "parallel.hpp"
 
@@ -117,6 +118,29 @@ struct Rows {
     std::vector<float> tilts;
 };
 
+// A line may grow deeper along its way, and is one line all the same: takes out of the rows by how much they are deeper than
+// all in the mean, as far as a few in a row are that together.
+void level_depths(Rows& rows) {
+    constexpr std::size_t kTogether = 8;  // rows to either side
+    const std::size_t count = rows.tilts.size();
+    if (count < 4 * kTogether) return;
+    std::vector<double> mean, like_mean(count + 1, 0.0);  // the latter summed up over the rows before
+    double square = 0.0;
+    for (const std::vector<float>& column : rows.columns) {
+        mean.push_back(std::accumulate(column.begin(), column.end(), 0.0) / static_cast<double>(count));
+        square += mean.back() * mean.back();
+        for (std::size_t i = 0; i < count; ++i) like_mean[i + 1] += mean.back() * column[i];
+    }
+    if (square <= 0.0) return;
+    std::partial_sum(like_mean.begin(), like_mean.end(), like_mean.begin());
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t first = i - std::min(i, kTogether), last = std::min(count, i + kTogether + 1);
+        const double times = (like_mean[last] - like_mean[first]) / (square * static_cast<double>(last - first));
+        for (std::size_t k = 0; k < rows.columns.size(); ++k)
+            rows.columns[k][i] -= static_cast<float>((std::max(0.0, times) - 1.0) * mean[k]);
+    }
+}
+
 constexpr double kPoint = 1.0;  // half-width below which a taper is but blur
 
 // No other chain comes near; on one side none does, which stands for both (they are as wide); any.
@@ -163,14 +187,17 @@ Rows sample_sections(const Chain& chain, std::int32_t self, const Surroundings& 
     return rows;
 }
 
+enum class Depths : std::uint8_t { as_they_are, levelled };
+
 CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach,
-                                   const std::vector<Places>& choice) {
+                                   const std::vector<Places>& choice, Depths depths = Depths::as_they_are) {
     constexpr std::size_t kEnough = 4;
     Rows rows;
     for (const Places places : choice) {
         rows = sample_sections(chain, self, around, reach, places);
         if (rows.tilts.size() >= kEnough) break;
     }
+    if (depths == Depths::levelled) level_depths(rows);
     std::vector<float>& tilts = rows.tilts;
     std::vector<std::vector<float>>& columns = rows.columns;
     CrossSection section;
@@ -203,14 +230,14 @@ CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const 
 }
 
 constexpr double kBroad = 6.0;  // half-width in texels
-constexpr double kClearly = 0.93;  // share of a section that is one and the same
+constexpr double kClearly = 0.93, kWholly = 0.98;  // share of a section that is one and the same
 
 // A line has one section all along it, and the same ground on both sides. What fails this is the rim of a plateau or a
 // blob, which the step contours describe better; and so do they a wide line whose rims are ragged.
 bool has_one_section(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach,
-                     const std::vector<Places>& choice = kUsualPlaces) {
+                     const std::vector<Places>& choice = kUsualPlaces, Depths depths = Depths::as_they_are) {
     const double noise = around.noise;
-    const CrossSection section = measure_cross_section(chain, self, around, reach, choice);
+    const CrossSection section = measure_cross_section(chain, self, around, reach, choice, depths);
     // A closing that does not span the line fills only a part of it: it is wider than it looks.
     if (chain.half_width > 2.0 && chain.contrast < 0.93 * section.depth) return false;
     const double grain = 0.5 * (2.0 * (reach.left + reach.right) + 1.0) * (noise / section.depth) * (noise / section.depth);
@@ -262,6 +289,10 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
     const std::vector<Places> one_sided{Places::one_sided};
     if (crosses_long(chain) && has_one_section(chain, self, around, {near, near}, one_sided) &&
         measure_cross_section(chain, self, around, {near, near}, one_sided).explained > kClearly)
+        return true;
+    // Depths that vary are a long line's own where nothing else does.
+    if (extent > 20.0 * chain.half_width + 20.0 && has_one_section(chain, self, around, {near, near}, kUsualPlaces, Depths::levelled) &&
+        measure_cross_section(chain, self, around, {near, near}, kUsualPlaces, Depths::levelled).explained > kWholly)
         return true;
     // A thin line may have a rim of its own on one side: there the ground lies farther out. The rim of an area has too.
     const double far = 4.0 * near;
