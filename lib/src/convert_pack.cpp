@@ -95,6 +95,18 @@ int room_for_elements(const PackedTextures& textures, std::size_t budget) {
 
 namespace {
 
+// What is nearly as small as a clean map should be becomes so by cells up to twice as large: a ray looks at a few more
+// elements in each.
+PackedTextures smaller_grid(PackedTextures textures, const ResolvedPattern& pattern, std::size_t texels, GridOptions options,
+                            const PackOptions& pack, StageClock& clock) {
+    constexpr std::size_t kSmall = 40, kMostTimes = 2;  // a share of the map's 8-bit size
+    const std::size_t small = texels / kSmall, beside = bytes_of(textures) - element_bytes(textures);
+    options.max_bytes = room_beside(textures, small);
+    if (bytes_of(textures) <= small || kMostTimes * options.max_bytes < beside) return textures;
+    auto larger = grid_and_pack(pattern, options, pack, clock);
+    return larger && bytes_of(*larger) <= small ? std::move(*larger) : textures;
+}
+
 // Resolve, grid, pack.
 Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const ConvertOptions& options,
                             std::size_t budget, StageClock& clock, ConvertStats& stats) {
@@ -118,6 +130,7 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
         if (auto larger = grid_and_pack(*resolved, grid, options.pack, clock)) textures = std::move(larger);
     }
     if (!textures) return textures.error();
+    if (!chosen && options.max_texture_bytes == 0) textures = smaller_grid(std::move(*textures), *resolved, map.image.texels.size(), grid, options.pack, clock);
     stats.cells = textures->grid_width * textures->grid_height;
     stats.grid_bytes = textures->grid.size() * sizeof(std::uint32_t);
     stats.data_bytes = textures->data.size() * sizeof(std::uint32_t);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <optional>
 #include <string>
@@ -68,7 +69,11 @@ struct Limits {
     int low_cols = 1, low_rows = 1;  // fewest cells for which the copy of an element is never in doubt
 };
 
-std::string count_text(double v) { return std::to_string(v); }
+std::string count_text(double v) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", v);
+    return text;
+}
 
 Status check_options(const GridOptions& options) {
     if (!(options.cell_size >= 0.0) || !std::isfinite(options.cell_size))
@@ -153,6 +158,16 @@ Trial try_frame(const Frame& frame, const Chain& chain, int threads) {
     return trial;
 }
 
+// A cell size that was asked for, but would take more cells than there may be.
+Status check_fineness(Vec2 size, double cell) {
+    const double least = std::max(size.x, size.y) / BURIN_MAX_TEXTURE_SIDE;
+    if (cell == 0.0 || cell >= least) return Done{};
+    const auto cells = [&](double side) { return count_text(std::ceil(side / cell)); };
+    const std::string limit = std::to_string(BURIN_MAX_TEXTURE_SIDE);
+    return Error{ErrorCode::invalid_argument, "cell_size is " + count_text(cell) + " m, which takes " + cells(size.x) + " x " + cells(size.y) +
+                                                  " cells, limit " + limit + " x " + limit + "; " + count_text(1.00001 * least) + " m would work"};
+}
+
 Error too_full(const Frame& frame, const Fullest& fullest, double fitting) {
     const int cols = frame.cols;
     std::string message = "cell (" + std::to_string(static_cast<int>(fullest.cell) % cols) + "," +
@@ -190,6 +205,7 @@ void keep_to_budget(std::optional<Trial>& trial, double cell, std::size_t budget
 
 Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& options) {
     if (const Status status = check_options(options); !status.ok()) return status.error();
+    if (const Status status = check_fineness(pattern.size, options.cell_size); !status.ok()) return status.error();
     const Chain chain = find_chain(pattern);
     const Result<Limits> limits = find_limits(pattern, chain, options.margin);
     if (!limits.ok()) return limits.error();

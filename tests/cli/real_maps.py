@@ -12,16 +12,16 @@ import harness
 # Name, and what must hold: least explained, least texels of path per element, most bytes of both textures, most bytes
 # as a share of the raw 8-bit map. None: no bound.
 BOUNDS = {
-    "evillair_ex_concrete_floor1_h.png": (0.95, 8, 65536, 1 / 16),
-    "pk02_panels01a_h.png": (0.95, 8, 65536, 1 / 16),
-    "pk02_floor_cyl02_h.png": (0.95, 8, 65536, 1 / 16),
-    "oga_crate01_height_from_alpha_512.png": (0.95, 8, 65536, 1 / 16),
-    "brick_mask_2k.jpg": (0.95, 8, 65536, 1 / 16),
-    "trak5_tile1_h.png": (0.95, 8, None, 1 / 16),
-    "evillair_ex_wall_panel3_h.png": (0.95, 8, None, 1 / 16),
-    "scratches_gold01_1k_clean_gray.png": (None, None, None, 1 / 16),
-    "sponza_background_bump.png": (None, None, None, 1 / 16),
-    "trak5_pipes_h.png": (None, None, None, 1 / 16),
+    "evillair_ex_concrete_floor1_h.png": (0.995, 12, 65536, 1 / 32),
+    "pk02_panels01a_h.png": (0.985, 12, 65536, 1 / 16),
+    "pk02_floor_cyl02_h.png": (0.98, 8, 65536, 1 / 8),
+    "oga_crate01_height_from_alpha_512.png": (0.995, 12, 65536, 1 / 32),
+    "brick_mask_2k.jpg": (0.995, 8, 65536, 1 / 40),
+    "trak5_tile1_h.png": (0.985, 8, None, 1 / 16),
+    "evillair_ex_wall_panel3_h.png": (0.995, 12, None, 1 / 30),
+    "scratches_gold01_1k_clean_gray.png": (0.6, 12, None, 1 / 8),
+    "sponza_background_bump.png": (0.75, 6, None, 1 / 4),
+    "trak5_pipes_h.png": (0.975, None, None, 1 / 16),
 }
 CONSTANT = "pk01_wall03_h_CONSTANT.png"
 TERRAIN = "vulkan_terrain_heightmap_r16_16bit.png"

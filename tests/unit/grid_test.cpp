@@ -221,6 +221,16 @@ TEST(Grid, FullCellIsRefusedWithTheSizeThatFits) {
     EXPECT_TRUE(build_grid(pattern).ok());
 }
 
+TEST(Grid, CellsTooManyAreRefusedWithTheSizeThatWorks) {
+    const ResolvedPattern pattern = pattern_of({stroke({0.25, 0.55}, {0.65, 0.55})});
+    const auto refused = build_grid(pattern, {.cell_size = 1e-9});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::invalid_argument);
+    EXPECT_NE(refused.error().message.find("1e-09"), std::string::npos) << refused.error().message;
+    EXPECT_NE(refused.error().message.find("0.000244143 m would work"), std::string::npos) << refused.error().message;
+    EXPECT_TRUE(build_grid(pattern, {.cell_size = 0.000244143}).ok());
+}
+
 TEST(Grid, OptionsOutOfRangeAreRefused) {
     const ResolvedPattern pattern = pattern_of({});
     EXPECT_FALSE(build_grid(pattern, {.cell_size = -1.0}).ok());

@@ -43,11 +43,13 @@ struct ConvertOptions {
     PackOptions pack;
     FallbackOptions fallback;
     // Of convert_map. `most_texels` left at its default: at most 1/64 of the map's texels where the paths explain
-    // kWellExplained or more. Without any path the residual is the core material's normal map too, and always worthwhile.
+    // kWellExplained or more, unless normals would then be off by more than `tolerance`. Without any path the residual is the core material's normal map too, and always worthwhile.
     ResidualOptions residual;
     AttachOptions attach;
     // Bound on both textures together, as uploaded: elements are given up until they fit. 0: no bound, but they are given
-    // up, as far as that goes, beyond a sixteenth of the map's 8-bit size (16 KiB for small maps, 63 KiB up to 2048 x 2048).
+    // up, as far as that goes, beyond a sixteenth of the map's 8-bit size (16 KiB for small maps, 63 KiB up to 2048 x 2048),
+    // or beyond twice or four times that where a doubling explains 0.04 more of the map by paths and not by sheer number.
+    // Maps that come near 1/40 of their 8-bit size reach it by larger cells.
     std::size_t max_texture_bytes = 0;
     // Bound on the 99.9th percentile of the height error (ConvertStats::p999), a share of the range: curves are fitted
     // ever closer until at most 1 texel in 1000 errs by more. 0: no bound. Range [0, 1]; without effect on
