@@ -20,9 +20,9 @@ constexpr double kAccidentShare = 0.1;  // explained: paths that reach less are 
 // long and gain little, since a soft wall shows its place well. Whether it runs depends on the pattern alone, not on a
 // clock, so that the bytes do not depend on the machine.
 bool can_afford_refinement(const Pattern& pattern, const Image& map, double explained) {
-    // Element lengths times profile widths: up to 8 seconds on two cores where the paths are what the map is made of, half
-    // as much where much of it is something else.
-    constexpr double kMade = 0.9, kMostTexels = 1e6, kMostOfOthers = 5e5;
+    // Element lengths times profile widths: up to 8 seconds on two cores where the paths are what the map is made of, a
+    // third as much where much of it is something else.
+    constexpr double kMade = 0.9, kMostTexels = 1e6, kMostOfOthers = 3e5;
     const double texels = map.width / pattern.size.x;
     double work = 0.0;
     for (const Path& path : pattern.paths) {

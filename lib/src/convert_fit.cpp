@@ -89,25 +89,26 @@ bool is_short_of_bytes(const Candidate& candidate) { return candidate.most_eleme
 
 // Whether a candidate that takes more room than usual is made of paths, and not of very many short ones.
 bool deserves_room(const ConvertStats& stats) {
-    constexpr double kLeastLength = 9.0, kNearlyAll = 0.95;  // texels per element; explained: dots are short and many
+    constexpr double kLeastLength = 9.0, kNearlyAll = 0.9;  // texels per element; explained: dots are short and many
     return stats.explained >= kNearlyAll || stats.path_length_texels >= kLeastLength * (stats.lines + stats.quadratics);
 }
 
 // Where the default budget was too small for what the map is made of, twice or four times as much.
 Result<Start> with_room(Start start, const ConvertOptions& options, const Progress& progress, StageClock& clock) {
-    constexpr double kMustGain = 0.04;  // for every doubling
+    constexpr double kMustGain = 0.04, kPromises = 0.1;  // for every doubling; of the first, for another to be tried
     const std::size_t usual = default_budget(start.source.map.image.texels.size());
     for (const std::size_t budget : {2 * usual, 4 * usual}) {
         const ConvertStats& stats = start.candidate.stats;
         const bool may_be_paths = stats.explained >= kPathLikeShare || stats.paths == 0;
-        if (options.max_texture_bytes > 0 || !is_short_of_bytes(start.candidate) || !may_be_paths || stats.explained > 1.0 - kMustGain) break;
+        const bool may_gain = may_be_paths && stats.explained <= 1.0 - kMustGain;
+        if (options.max_texture_bytes > 0 || !is_short_of_bytes(start.candidate) || !may_gain) break;
         if (budget <= start.budget) continue;
         auto larger = fit_within(start.source, options, budget, progress, clock);
         if (!larger) return larger.error();
         const double must_gain = kMustGain * std::log2(static_cast<double>(budget) / static_cast<double>(start.budget));
-        if (larger->stats.explained < stats.explained + must_gain || !deserves_room(larger->stats)) continue;
-        start.candidate = std::move(*larger);
-        start.budget = budget;
+        const double gain = larger->stats.explained - stats.explained;
+        if (gain >= must_gain && deserves_room(larger->stats)) start.candidate = std::move(*larger), start.budget = budget;
+        if (gain < kPromises) break;
     }
     return start;
 }
@@ -156,7 +157,8 @@ Result<Start> trace_on_ground(const HeightMap& map, const ConvertOptions& option
     if (!start) return start.error();
     // Where the budget is what leaves most of the map unexplained, level ground would not help.
     const double explained = start->candidate.stats.explained;
-    if (start->candidate.most_elements > 0 && explained < kClearShare) return start;
+    const bool is_short = start->candidate.most_elements > 0 && explained < kClearShare;
+    if (is_short || start->budget > budget) return start;
     if (explained + kMustGain > 1.0) return start;  // nor can it where all is explained
     if (!clock.begin("vectorize")) return stopped();
     // Only a bound on the error asks for closer paths later, and what was traced takes room.
