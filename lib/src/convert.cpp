@@ -286,7 +286,9 @@ Result<Residual> residual_of(const HeightMap& map, const FoundPattern& found, Im
     if (found.pattern.paths.empty()) residual.worthwhile = 0.0;
     const Wrap wrap = found.stats.repeat ? Wrap::repeat : Wrap::clamp;
     auto baked = bake_residual(map.image, heights, found.pattern.size, found.pattern.depth, wrap, residual);
-    if (chosen || !baked || baked->error <= residual.tolerance) return baked;
+    // A larger texture is the lesser evil where the map is small.
+    constexpr std::size_t kMostTexels = std::size_t{1} << 20;
+    if (chosen || !baked || baked->error <= residual.tolerance || map.image.texels.size() > kMostTexels) return baked;
     residual.most_texels = ResidualOptions{}.most_texels;
     return bake_residual(map.image, heights, found.pattern.size, found.pattern.depth, wrap, residual);
 }
