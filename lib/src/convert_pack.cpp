@@ -130,7 +130,8 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
         if (auto larger = grid_and_pack(*resolved, grid, options.pack, clock)) textures = std::move(larger);
     }
     if (!textures) return textures.error();
-    if (!chosen && options.max_texture_bytes == 0) textures = smaller_grid(std::move(*textures), *resolved, map.image.texels.size(), grid, options.pack, clock);
+    if (!chosen && options.max_texture_bytes == 0)
+        textures = smaller_grid(std::move(*textures), *resolved, map.image.texels.size(), grid, options.pack, clock);
     stats.cells = textures->grid_width * textures->grid_height;
     stats.grid_bytes = textures->grid.size() * sizeof(std::uint32_t);
     stats.data_bytes = textures->data.size() * sizeof(std::uint32_t);

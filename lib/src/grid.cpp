@@ -164,8 +164,9 @@ Status check_fineness(Vec2 size, double cell) {
     if (cell == 0.0 || cell >= least) return Done{};
     const auto cells = [&](double side) { return count_text(std::ceil(side / cell)); };
     const std::string limit = std::to_string(BURIN_MAX_TEXTURE_SIDE);
-    return Error{ErrorCode::invalid_argument, "cell_size is " + count_text(cell) + " m, which takes " + cells(size.x) + " x " + cells(size.y) +
-                                                  " cells, limit " + limit + " x " + limit + "; " + count_text(1.00001 * least) + " m would work"};
+    return Error{ErrorCode::invalid_argument, "cell_size is " + count_text(cell) + " m, which takes " + cells(size.x) + " x " +
+                                                  cells(size.y) + " cells, limit " + limit + " x " + limit + "; " +
+                                                  count_text(1.00001 * least) + " m would work"};
 }
 
 Error too_full(const Frame& frame, const Fullest& fullest, double fitting) {

@@ -230,12 +230,13 @@ CrossSection measure_cross_section(const Chain& chain, std::int32_t self, const 
 }
 
 constexpr double kBroad = 6.0;  // half-width in texels
-constexpr double kClearly = 0.93, kWholly = 0.98;  // share of a section that is one and the same
+constexpr double kMostly = 0.55, kClearly = 0.93, kWholly = 0.98;  // share of a section that is one and the same
 
 // A line has one section all along it, and the same ground on both sides. What fails this is the rim of a plateau or a
 // blob, which the step contours describe better; and so do they a wide line whose rims are ragged.
 bool has_one_section(const Chain& chain, std::int32_t self, const Surroundings& around, Reach reach,
-                     const std::vector<Places>& choice = kUsualPlaces, Depths depths = Depths::as_they_are) {
+                     const std::vector<Places>& choice = kUsualPlaces, Depths depths = Depths::as_they_are,
+                     double least_explained = kMostly) {
     const double noise = around.noise;
     const CrossSection section = measure_cross_section(chain, self, around, reach, choice, depths);
     // A closing that does not span the line fills only a part of it: it is wider than it looks.
@@ -244,7 +245,7 @@ bool has_one_section(const Chain& chain, std::int32_t self, const Surroundings& 
     const double most_wobble = chain.half_width > kBroad ? 0.05 : 0.13;
     const bool straight_rims = chain.half_width < 2.5 || section.wobble - grain < most_wobble;
     return section.depth > std::max(3.0 * noise, 0.012) && std::fabs(section.tilt) < 0.35 * section.depth &&
-           section.explained > 0.55 && straight_rims;
+           section.explained > least_explained && straight_rims;
 }
 
 // A line with level ground to both sides: far, or as far as the next line, if that leaves ground wider than the line. A
@@ -286,13 +287,12 @@ bool is_line(const Chain& chain, std::int32_t self, const Surroundings& around) 
         has_one_section(chain, self, around, {std::max(least, free.left), std::max(least, free.right)}))
         return true;
     // A line that crosses another at a small angle has that one first on one side, then on the other.
-    const std::vector<Places> one_sided{Places::one_sided};
-    if (crosses_long(chain) && has_one_section(chain, self, around, {near, near}, one_sided) &&
-        measure_cross_section(chain, self, around, {near, near}, one_sided).explained > kClearly)
+    if (crosses_long(chain) &&
+        has_one_section(chain, self, around, {near, near}, {Places::one_sided}, Depths::as_they_are, kClearly))
         return true;
     // Depths that vary are a long line's own where nothing else does.
-    if (extent > 20.0 * chain.half_width + 20.0 && has_one_section(chain, self, around, {near, near}, kUsualPlaces, Depths::levelled) &&
-        measure_cross_section(chain, self, around, {near, near}, kUsualPlaces, Depths::levelled).explained > kWholly)
+    if (extent > 20.0 * chain.half_width + 20.0 &&
+        has_one_section(chain, self, around, {near, near}, kUsualPlaces, Depths::levelled, kWholly))
         return true;
     // A thin line may have a rim of its own on one side: there the ground lies farther out. The rim of an area has too.
     const double far = 4.0 * near;

@@ -154,7 +154,7 @@ std::size_t count_as_curves(const std::vector<Element>& lines) {
             finish();
             continue;
         }
-        const double turn = std::atan2(cross(in, out), dot(in, out));
+        const double turn = turn_between(in, out);
         if (std::fabs(turn) > kCorner || turn * last_turn < 0.0) finish();
         last_turn = turn;
         ++bent;

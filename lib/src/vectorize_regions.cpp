@@ -256,6 +256,10 @@ struct Heights {
 
 enum Side : std::uint8_t { neither, above, below };
 
+Parts find_hill_parts(const Lattice& lattice, const std::vector<std::uint8_t>& side) {
+    return find_parts(lattice, false, [&](int x, int y) { return side[static_cast<std::size_t>(y) * lattice.width + x]; });
+}
+
 // Marks the texels of walls that rise above, or fall below, all seeds around them by more than `least`.
 std::vector<std::uint8_t> find_hills(const Image& map, const Lattice& lattice, const Regions& regions,
                                      const std::vector<std::uint32_t>& label, double least) {
@@ -283,7 +287,7 @@ void plant_hills(const Image& map, const Lattice& lattice, Regions& regions, std
     const auto [lowest, highest] = std::minmax_element(map.texels.begin(), map.texels.end());
     const double least = kLeastShare * (*highest - *lowest);
     std::vector<std::uint8_t> side = find_hills(map, lattice, regions, label, least);
-    const Parts hills = find_parts(lattice, false, [&](int x, int y) { return side[static_cast<std::size_t>(y) * lattice.width + x]; });
+    const Parts hills = find_hill_parts(lattice, side);
     std::vector<Heights> heights(hills.count);
     for_each_run(hills, [&](int y, const Run& run) {
         for (int x = run.begin; x < run.end; ++x) heights[run.part].add(map.at(x, y));
@@ -296,8 +300,7 @@ void plant_hills(const Image& map, const Lattice& lattice, Regions& regions, std
             if (of_hill == above ? map.at(x, y) < middle : map.at(x, y) > middle) of_hill = neither;
         }
     });
-    plant_seeds(map, lattice, find_parts(lattice, false, [&](int x, int y) { return side[static_cast<std::size_t>(y) * lattice.width + x]; }),
-                regions, label);
+    plant_seeds(map, lattice, find_hill_parts(lattice, side), regions, label);
 }
 
 // Without the cost per step a middle level would creep along every wall that passes its height.

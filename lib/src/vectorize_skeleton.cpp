@@ -103,7 +103,6 @@ Strand walk_strand(Walker& walker, int first, Vec2 start, int from) {
     }
 }
 
-
 void trace_strands(Walker& walker, Skeleton& skeleton) {
     const Lattice& lattice = walker.lattice;
     for (const int i : walker.texels) {

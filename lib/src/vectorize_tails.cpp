@@ -15,8 +15,6 @@ constexpr double kReaches[] = {2.0, 3.0, 4.0};  // half-widths from the end, the
 constexpr double kLeastTurn = 0.2;  // radians
 constexpr double kMoreThan = 2.0;   // times the turn of as long a stretch before
 
-double angle_between(Vec2 a, Vec2 b) { return std::fabs(std::atan2(cross(a, b), dot(a, b))); }
-
 // A place on a row of elements.
 struct Cut {
     std::size_t element = 0;
@@ -34,14 +32,14 @@ Cut back_from(const std::vector<Element>& elements, Cut from, double by) {
 }
 
 // All turns from one place to another, added up.
-double turn_between(const std::vector<Element>& elements, Cut from, Cut to) {
+double turns_between(const std::vector<Element>& elements, Cut from, Cut to) {
     double sum = 0.0;
     Vec2 last = curve::tangent(elements[from.element], from.at);
     for (std::size_t i = from.element; i <= to.element; ++i) {
         const double begin = i == from.element ? from.at : 0.0, end = i == to.element ? to.at : 1.0;
         for (const double s : {begin, 0.5 * (begin + end), end}) {
             const Vec2 next = curve::tangent(elements[i], s);
-            sum += angle_between(last, next);
+            sum += std::fabs(turn_between(last, next));
             last = next;
         }
     }
@@ -54,10 +52,10 @@ bool straighten_tail(std::vector<Element>& elements, double reach) {
     const Cut end{elements.size() - 1, 1.0}, cut = back_from(elements, end, reach), before = back_from(elements, cut, reach);
     const Element& bearer = elements[cut.element];
     if (cut.at == 0.0 || curve::arc_length(bearer) < kShortest) return false;
-    const double turn = turn_between(elements, cut, end);
-    if (turn < kLeastTurn || turn < kMoreThan * turn_between(elements, before, cut)) return false;
+    const double turn = turns_between(elements, cut, end);
+    if (turn < kLeastTurn || turn < kMoreThan * turns_between(elements, before, cut)) return false;
     const Vec2 tip = elements.back().p2;
-    if (angle_between(curve::tangent(bearer, cut.at), tip - curve::point(bearer, cut.at)) > 0.5 * turn) return false;
+    if (std::fabs(turn_between(curve::tangent(bearer, cut.at), tip - curve::point(bearer, cut.at))) > 0.5 * turn) return false;
     elements.resize(cut.element + 1);
     Element& last = elements.back();
     // What runs straight for long goes on as it is.

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <burin/convert.hpp>
-
+#include "../sampled_image.hpp"
+#include "converted_map.hpp"
 #include "drawn_map.hpp"
 
 namespace burin::testing {
@@ -14,30 +14,17 @@ namespace {
 
 constexpr int kSide = 256;
 
-Converted converted(const Image& image) {
-    HeightMap map;
-    map.image = image;
-    Result<Converted> result = convert_map(map, make_plane({1.0, 1.0}), {});
-    EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
-    if (!result) return {};
-    std::printf("  %d paths, explained %.4f, %zu bytes\n", result->stats.paths, result->stats.explained,
-                result->stats.grid_bytes + result->stats.data_bytes);
-    return std::move(*result);
+// Also says what was found.
+Converted found_in(const Image& image) {
+    Converted result = converted(image);
+    std::printf("  %d paths, explained %.4f, %zu bytes\n", result.stats.paths, result.stats.explained,
+                result.stats.grid_bytes + result.stats.data_bytes);
+    return result;
 }
 
-// Means of 4 x 4 samples of height(x, y), x and y in texels.
-template <typename Height>
-Image image_of(const Height& height) {
-    constexpr int kSamples = 4;
-    Image image(kSide, kSide);
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            double sum = 0.0;
-            for (int k = 0; k < kSamples * kSamples; ++k)
-                sum += height(x + (k % kSamples + 0.5) / kSamples, y + (k / kSamples + 0.5) / kSamples);
-            image.at(x, y) = static_cast<float>(sum / (kSamples * kSamples));
-        }
-    return image;
+template <typename Surface>
+Image image_of(const Surface& surface) {
+    return sampled_image(kSide, kSide, 4, surface);
 }
 
 // Domes and pyramids have no level texels on top; how high they are makes no difference.
@@ -51,7 +38,7 @@ TEST(VectorizeForms, HillsOfAnyHeight) {
         };
         for (const bool dome : {true, false}) {
             SCOPED_TRACE((dome ? "domes " : "pyramids ") + std::to_string(height));
-            const ConvertStats stats = converted(image_of([&](double x, double y) { return at(x, y, dome); })).stats;
+            const ConvertStats stats = found_in(image_of([&](double x, double y) { return at(x, y, dome); })).stats;
             EXPECT_GE(stats.paths, 16);
             EXPECT_GT(stats.explained, 0.98);
         }
@@ -65,7 +52,7 @@ TEST(VectorizeForms, DotsByTheHundred) {
     const Image dots = image_of([&](double x, double y) {
         return std::hypot(std::fmod(x, 8.0) - 4.0, std::fmod(y, 8.0) - 4.0) < radius ? 0.9 : 0.2;
     });
-    const ConvertStats stats = converted(dots).stats;
+    const ConvertStats stats = found_in(dots).stats;
     EXPECT_EQ(stats.paths, (kSide / 8) * (kSide / 8));
     EXPECT_GT(stats.explained, 0.98);
 }
@@ -81,7 +68,7 @@ TEST(VectorizeForms, SeamsAreNowhere) {
         const bool disc = std::hypot(x - 60.0, y - 150.0) < 22.0;
         return disc ? 0.9 : level || diagonal ? 0.2 : 0.6;
     });
-    const Converted result = converted(map);
+    const Converted result = found_in(map);
     EXPECT_TRUE(result.stats.repeat);
     EXPECT_EQ(result.stats.paths, 3);
     EXPECT_GT(result.stats.explained, 0.995);
@@ -119,7 +106,7 @@ TEST(VectorizeForms, DepthsVaryAlongPaths) {
         const bool inside = x > 20.0 && x < 236.0;
         return 0.8 - (inside ? 0.6 * (wall(80.0) * (least + (1.0 - least) * along) + wall(170.0) * (least + (1.0 - least) * wave)) : 0.0);
     });
-    const ConvertStats stats = converted(map).stats;
+    const ConvertStats stats = found_in(map).stats;
     EXPECT_LE(stats.paths, 6);
     EXPECT_GT(stats.explained, 0.99);
 }
@@ -137,7 +124,7 @@ TEST(VectorizeForms, ScratchesOverClouds) {
     const Pattern drawing = map.take();
     Image image = bench::map_of(drawing, kTexels, 16);
     bench::add_clouds(image, 0.05, 40.0, random);
-    const bench::StructureScore found = bench::compare_structure(drawing, converted(image).pattern, kTexels);
+    const bench::StructureScore found = bench::compare_structure(drawing, found_in(image).pattern, kTexels);
     std::printf("  paths %d/%d/%d\n", found.paths.authored, found.paths.recovered, found.paths.matched);
     EXPECT_GE(found.paths.matched, found.paths.authored - 1);
     EXPECT_LE(found.paths.recovered, found.paths.authored + 2);

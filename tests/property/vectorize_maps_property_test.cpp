@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <burin/convert.hpp>
 #include <burin/resolve.hpp>
 
 #include "../../bench/vectorizer/damage.hpp"
 #include "../unit/temporary_folder.hpp"
+#include "converted_map.hpp"
 #include "drawn_map.hpp"
 
 namespace burin::testing {
@@ -234,16 +234,6 @@ TEST(VectorizeMaps, RaggedEdgesStayOneOutline) {
     EXPECT_EQ(r.pattern.paths.size(), 1u);
     EXPECT_EQ(r.contour.lost, 0.0);
     EXPECT_LT(r.contour.rms, 0.3);
-}
-
-Converted converted(const Image& image) {
-    HeightMap map;
-    map.image = image;
-    ConvertOptions options;
-    options.vectorize.size = {1.0, static_cast<double>(image.height) / image.width};
-    Result<Converted> result = convert_map(map, make_plane(options.vectorize.size), options);
-    EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
-    return result.ok() ? std::move(*result) : Converted{};
 }
 
 // Noise can be "explained" by sheer number of paths; hills are smooth enough for a few. Neither may fill the textures.

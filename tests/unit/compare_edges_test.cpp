@@ -9,25 +9,15 @@
 
 #include <gtest/gtest.h>
 
+#include "../sampled_image.hpp"
+
 namespace burin {
 namespace {
 
 using Surface = std::function<double(double, double)>;
 
 // Box-filtered, as image.hpp says.
-Image map_of(const Surface& surface, int width, int height) {
-    constexpr int kSamples = 24;
-    Image map(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            double sum = 0.0;
-            for (int k = 0; k < kSamples * kSamples; ++k)
-                sum += surface(x + (k % kSamples + 0.5) / kSamples, y + (k / kSamples + 0.5) / kSamples);
-            map.at(x, y) = static_cast<float>(sum / (kSamples * kSamples));
-        }
-    }
-    return map;
-}
+Image map_of(const Surface& surface, int width, int height) { return testing::sampled_image(width, height, 24, surface); }
 
 double wall(double distance, double width) {
     if (width <= 0.0) return distance < 0.0 ? 0.2 : 0.8;

@@ -43,7 +43,8 @@ struct ConvertOptions {
     PackOptions pack;
     FallbackOptions fallback;
     // Of convert_map. `most_texels` left at its default: at most 1/64 of the map's texels where the paths explain
-    // kWellExplained or more, unless normals of a map of up to 2^20 would then be off by more than `tolerance`. Without any path the residual is the core material's normal map too, and always worthwhile.
+    // kWellExplained or more, unless normals of a map of up to 2^20 would then be off by more than `tolerance`. Without any
+    // path the residual is the core material's normal map too, and always worthwhile.
     ResidualOptions residual;
     AttachOptions attach;
     // Bound on both textures together, as uploaded: elements are given up until they fit. 0: no bound, but they are given
