@@ -17,6 +17,12 @@ namespace {
 
 std::int64_t count_of(std::size_t count) { return static_cast<std::int64_t>(count); }
 
+// Both textures as uploaded and the residual as stored: what --max-bytes bounds.
+std::size_t total_bytes(const ConvertStats& stats, const Residual* residual) {
+    return stats.grid_bytes + stats.data_bytes + (residual ? residual->png.size() : 0);
+}
+const char* total_name(const Residual* residual) { return residual ? "textures and residual" : "textures"; }
+
 std::string of_range(double share) { return percent_text(share, 3) + " of range"; }
 
 void add_counts(Report& report, const ConvertStats& stats, std::size_t file_bytes, const Residual* residual) {
@@ -30,12 +36,14 @@ void add_counts(Report& report, const ConvertStats& stats, std::size_t file_byte
                       {"quadratics", "quadratics", std::int64_t{stats.quadratics}, ""}});
     report.add({"profiles", "profiles", std::int64_t{stats.profiles}, ""});
     report.add({"cells", "cells", std::int64_t{stats.cells}, ""});
-    std::vector<Field> bytes{{"grid_texture", "grid texture", count_of(stats.grid_bytes), bytes_text(stats.grid_bytes)},
+    const std::size_t total = total_bytes(stats, residual);
+    std::vector<Field> bytes{{"total", total_name(residual), count_of(total), bytes_text(total)},
+                             {"grid_texture", "grid texture", count_of(stats.grid_bytes), bytes_text(stats.grid_bytes)},
                              {"data_texture", "data texture", count_of(stats.data_bytes), bytes_text(stats.data_bytes)}};
     if (residual) {
         const std::size_t uploaded = residual->picture.texels.size(), stored = residual->png.size();
-        bytes.push_back({"residual_texture", "residual", count_of(uploaded), bytes_text(uploaded)});
-        bytes.push_back({"residual_file", "as PNG", count_of(stored), bytes_text(stored)});
+        bytes.push_back({"residual_file", "residual as PNG", count_of(stored), bytes_text(stored)});
+        bytes.push_back({"residual_texture", "as uploaded", count_of(uploaded), bytes_text(uploaded)});
     }
     bytes.push_back({"file", "file", count_of(file_bytes), bytes_text(file_bytes)});
     report.add_group("bytes", "bytes", std::move(bytes));
@@ -76,7 +84,7 @@ void add_certificate(Report& report, const ConvertStats& stats) {
 }
 
 // The bounds that were asked for. One that is not kept is an error, so that these are.
-void add_bounds(const Arguments& arguments, Report& report, const ConvertStats& stats) {
+void add_bounds(const Arguments& arguments, Report& report, const ConvertStats& stats, const Residual* residual) {
     std::vector<Field> bounds;
     if (arguments.given("--max-error")) {
         const double bound = arguments.number("--max-error") / 100.0;
@@ -85,8 +93,8 @@ void add_bounds(const Arguments& arguments, Report& report, const ConvertStats& 
     }
     if (arguments.given("--max-bytes")) {
         const std::uint64_t bound = arguments.bytes("--max-bytes");
-        bounds.push_back({"max_bytes", "textures", static_cast<std::int64_t>(bound),
-                          bytes_text(stats.grid_bytes + stats.data_bytes) + " within " + bytes_text(bound)});
+        bounds.push_back({"max_bytes", total_name(residual), static_cast<std::int64_t>(bound),
+                          bytes_text(total_bytes(stats, residual)) + " within " + bytes_text(bound)});
     }
     if (!bounds.empty()) report.add_group("bounds", "bounds kept", std::move(bounds));
 }
@@ -126,8 +134,15 @@ void add_method(Report& report, const ConvertStats& stats) {
     report.add_group("seconds", "seconds", std::move(seconds));
 }
 
+// Where what the paths leave out is shown. Without a residual the core material's normal map is there.
+const char* who_carries_the_rest(const Residual* residual) {
+    if (residual == nullptr) return "the drawing leaves out the rest";
+    return residual->picture.width > 0 ? "the residual normal map carries the rest"
+                                       : "the core material's normal map carries the rest, and there is no residual";
+}
+
 // What a user should know, a sentence each.
-std::vector<std::string> notes_on(const HeightMap& map, const ConvertStats& stats) {
+std::vector<std::string> notes_on(const HeightMap& map, const ConvertStats& stats, const Residual* residual) {
     std::vector<std::string> notes = map.notes;
     // Paths that were given up count with what they explained: that number is why they were.
     const double share = stats.paths == 0 ? stats.traced_explained : stats.explained;
@@ -135,7 +150,10 @@ std::vector<std::string> notes_on(const HeightMap& map, const ConvertStats& stat
         notes.push_back("the map is constant: it holds no path, and the surface is flat");
     else if (!stats.path_like)
         notes.push_back("the map is not path-like: the paths explain " + number_text(std::max(share, 0.0)) +
-                        " of its detail; normal maps carry the rest");
+                        " of its detail; " + who_carries_the_rest(residual));
+    if (residual && residual->is_short)
+        notes.push_back(residual->picture.width > 0 ? "a larger residual normal map does not fit within --max-bytes"
+                                                    : "no residual normal map that helps fits within --max-bytes");
     if (stats.dropped_paths > 0)
         notes.push_back(std::to_string(stats.dropped_paths) + " traced paths could not be joined and were left out");
     if (stats.unrefined != Unrefined::no)
@@ -227,10 +245,10 @@ Report describe_found(const Arguments& arguments, const HeightMap& map, const Fo
     add_counts(report, stats, file_bytes, residual);
     add_certificate(report, stats);
     if (residual) add_residual(report, *residual);
-    add_bounds(arguments, report, stats);
+    add_bounds(arguments, report, stats, residual);
     add_method(report, stats);
     Rows notes{"notes", "notes", {}};
-    for (const std::string& note : notes_on(map, stats)) notes.rows.push_back({{"note", "note", note, ""}});
+    for (const std::string& note : notes_on(map, stats, residual)) notes.rows.push_back({{"note", "note", note, ""}});
     report.add_rows(std::move(notes));
     return report;
 }
@@ -254,7 +272,7 @@ Status draw_found(const Arguments& arguments, const HeightMap& map, const FoundP
     if (page) {
         report.add({"report", "report", arguments.text("--report"), ""});
         const ReportText text{std::filesystem::path(arguments.file).filename().string(), arguments.line,
-                              "burin " BURIN_VERSION, report.lines("seconds"), notes_on(map, found.stats)};
+                              "burin " BURIN_VERSION, report.lines("seconds"), notes_on(map, found.stats, residual)};
         auto html = write_html_report(map, found, *heights, text, residual, threads);
         if (!html) return html.error();
         outputs[2].write = text_writer(std::move(*html));

@@ -21,6 +21,8 @@ constexpr auto pixels = OptionKind::pixels;
 constexpr auto bytes = OptionKind::bytes;
 constexpr auto numbers = OptionKind::numbers;
 
+constexpr double kMostBytes = 1024.0 * 1024.0 * 1024.0;
+
 std::string plain(double value) {
     std::string digits = std::to_string(value);
     digits.erase(digits.find_last_not_of('0') + 1);
@@ -60,8 +62,11 @@ std::vector<OptionSpec> make_table() {
          "farthest a curve may lie from the traced line; 0 chooses by the map's grain"},
         {"--max-error", "convert vectorize", number, "PERCENT", "% of range", "", 1e-3, 100, "", false,
          "height error that 99.9 % of the texels keep; curves come closer until they do, or an error says what works"},
-        {"--max-bytes", "convert vectorize", bytes, "BYTES", "bytes", "", 1, 1e9, "", false,
-         "most that both textures take as uploaded, K and M for KiB and MiB; paths are given up until they do"},
+        {"--max-bytes", "convert", bytes, "BYTES", "bytes", "", 1, kMostBytes, "", false,
+         "most that both textures take as uploaded and the residual as stored, K, M and G for KiB, MiB and GiB: paths are "
+         "given up until they do, and the residual gets what is left"},
+        {"--max-bytes", "vectorize", bytes, "BYTES", "bytes", "", 1, kMostBytes, "", false,
+         "most that both textures of convert would take as uploaded, K, M and G for KiB, MiB and GiB: paths are given up until they do"},
         {"--cell-size", "convert", number, "METRES", "m", "0", 0, 1e6, "", false,
          "side of a grid cell; 0 chooses by a cost model"},
         {"--residual", "convert", either, "WHICH", "texels", "auto", 1, 16777216, "auto|none", false,

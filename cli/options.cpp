@@ -41,15 +41,15 @@ bool parse_number(const std::string& text, double& value) {
     return error == std::errc() && rest == end && std::isfinite(value);
 }
 
-// A whole number of bytes, or of KiB or MiB.
+// What may stand behind a number of bytes, each 1024 times as much as the one before it.
+constexpr std::string_view kByteUnits = "KMG";
+
+// A whole number of bytes, or of KiB, MiB or GiB.
 bool parse_bytes(std::string text, double& value) {
-    double unit = 1.0;
-    if (!text.empty() && (text.back() == 'K' || text.back() == 'M')) {
-        unit = text.back() == 'K' ? 1024.0 : 1024.0 * 1024.0;
-        text.pop_back();
-    }
+    const std::size_t unit = text.empty() ? std::string_view::npos : kByteUnits.find(text.back());
+    if (unit != std::string_view::npos) text.pop_back();
     if (!parse_number(text, value) || value != std::floor(value)) return false;
-    value *= unit;
+    if (unit != std::string_view::npos) value *= std::pow(1024.0, static_cast<double>(unit + 1));
     return true;
 }
 
@@ -73,9 +73,17 @@ std::string with_unit(const OptionSpec& spec, const std::string& text) {
     return *spec.unit ? text + ' ' + spec.unit : text;
 }
 
+// A number of bytes as one may write it.
+std::string plain_bytes(double value) {
+    std::size_t units = 0;
+    for (; units < kByteUnits.size() && std::fmod(value, 1024.0) == 0.0; ++units) value /= 1024.0;
+    return plain(value) + std::string(units > 0 ? kByteUnits.substr(units - 1, 1) : "");
+}
+
 // "1e-06 to 1000 m", "one of height, depth": what a message offers and --help shows.
 std::string range_text(const OptionSpec& spec) {
-    const std::string range = with_unit(spec, plain(spec.low) + " to " + plain(spec.high));
+    const auto text = [&](double value) { return spec.kind == OptionKind::bytes ? plain_bytes(value) : plain(value); };
+    const std::string range = with_unit(spec, text(spec.low) + " to " + text(spec.high));
     if (spec.kind != OptionKind::choice && spec.kind != OptionKind::choice_or_integer) return range;
     std::string list;
     for (const std::string& name : split(spec.choices, '|')) list += (list.empty() ? "" : ", ") + name;
@@ -88,7 +96,7 @@ std::string form_text(const OptionSpec& spec) {
         case OptionKind::choice_or_integer: return "one of the names or a whole number";
         case OptionKind::extent: return "one number or two joined by x, such as 2 or 2x1.5";
         case OptionKind::pixels: return "one whole number or two joined by x, such as 640x480";
-        case OptionKind::bytes: return "a whole number, or one with K or M behind it, such as 65536 or 64K";
+        case OptionKind::bytes: return "a whole number, or one with K, M or G behind it, such as 65536 or 64K";
         case OptionKind::numbers: return std::string("numbers as ") + spec.argument;
         default: return "a number";
     }

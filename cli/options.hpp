@@ -28,7 +28,7 @@ enum class OptionKind {
     choice_or_integer,  // one of `choices`, or a whole number in [low, high]
     extent,   // one number, or two joined by x: 2 or 2x1.5; each in [low, high]
     pixels,   // an extent in whole numbers
-    bytes,    // a whole number in [low, high], with K for KiB or M for MiB behind it if one likes
+    bytes,    // a whole number in [low, high], with K for KiB, M for MiB or G for GiB behind it if one likes
     numbers,  // as many numbers as `argument` has commas plus one, each in [low, high]
 };
 

@@ -139,18 +139,32 @@ Error cannot_keep(const std::string& bound, const std::string& why, const std::s
     return {ErrorCode::invalid_argument, bound + " cannot be kept: " + why + "; " + works + " works"};
 }
 
-// Looks for a number of bytes that can be kept, to be told: what works is what was tried.
-Error refuse_bytes(const HeightMap& map, ConvertOptions options, std::size_t reached, const Progress& progress,
+// Whether paths are given up until both textures take no more. The refinement keeps to what they took without it.
+Result<bool> can_keep_bytes(const HeightMap& map, ConvertOptions options, std::size_t bytes, const Progress& progress,
+                            StageClock& clock) {
+    options.max_texture_bytes = bytes;
+    options.refine = false;
+    const auto start = start_within(map, options, bytes, progress, clock);
+    if (!start) return start.error();
+    return start->candidate.bytes() <= bytes;
+}
+
+// Looks for the least number of bytes that can be kept, to be told: what works is what was tried.
+Error refuse_bytes(const HeightMap& map, const ConvertOptions& options, std::size_t reached, const Progress& progress,
                    StageClock& clock) {
-    const std::string bound = "a limit of " + std::to_string(options.max_texture_bytes) + " bytes for both textures";
-    const std::string why = "giving up elements came down to " + std::to_string(reached) + " bytes";
-    while (true) {
-        options.max_texture_bytes = std::max(reached, options.max_texture_bytes + options.max_texture_bytes / 2);
-        const auto kept = start_within(map, options, options.max_texture_bytes, progress, clock);
+    constexpr int kMostHalvings = 5;
+    constexpr std::size_t kNear = 16;  // a share of what works
+    std::size_t fails = options.max_texture_bytes, works = 0, trial = reached;
+    for (int halvings = 0; works == 0 || (halvings < kMostHalvings && works - fails > works / kNear);) {
+        const auto kept = can_keep_bytes(map, options, trial, progress, clock);
         if (!kept) return kept.error();
-        if (kept->candidate.bytes() <= options.max_texture_bytes)
-            return cannot_keep(bound, why, std::to_string(options.max_texture_bytes) + " bytes");
+        (*kept ? works : fails) = trial;
+        halvings += works > 0;
+        trial = works > 0 ? fails + (works - fails) / 2 : trial + trial / 2;
     }
+    return cannot_keep("a limit of " + std::to_string(options.max_texture_bytes) + " bytes for both textures",
+                       "giving up paths came down to " + std::to_string(reached) + " bytes",
+                       std::to_string(works) + " bytes");
 }
 
 std::string percent(double share) {
@@ -284,6 +298,8 @@ Result<Residual> residual_of(const HeightMap& map, const FoundPattern& found, Im
     const bool chosen = residual.most_texels != ResidualOptions{}.most_texels;
     if (!chosen && found.stats.explained >= kWellExplained) residual.most_texels = map.image.texels.size() / 64;
     if (found.pattern.paths.empty()) residual.worthwhile = 0.0;
+    const std::size_t spent = found.stats.grid_bytes + found.stats.data_bytes;
+    if (options.max_texture_bytes > 0) residual.most_bytes = std::min(residual.most_bytes, options.max_texture_bytes - spent);
     const Wrap wrap = found.stats.repeat ? Wrap::repeat : Wrap::clamp;
     auto baked = bake_residual(map.image, heights, found.pattern.size, found.pattern.depth, wrap, residual);
     // A larger texture is the lesser evil where the map is small.

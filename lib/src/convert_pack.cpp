@@ -77,9 +77,9 @@ Result<PackedTextures> grid_and_pack(const ResolvedPattern& pattern, const GridO
     return pack_textures(pattern, *grid, pack);
 }
 
-// What the budget leaves to cells and lists.
+// What the budget leaves to cells and lists; one byte at least, since none is no limit.
 std::size_t room_beside(const PackedTextures& textures, std::size_t budget) {
-    return budget - std::min(budget, element_bytes(textures));
+    return std::max<std::size_t>(1, budget - std::min(budget, element_bytes(textures)));
 }
 
 // Larger cells make rays slower, but fewer elements lose something: cells and lists may be this small a share of the budget.
@@ -122,7 +122,7 @@ Result<Packed> pack_pattern(const Pattern& pattern, const HeightMap& map, const 
     GridOptions grid = options.grid;
     grid.threads = options.threads;
     const bool chosen = grid.max_bytes > 0 || grid.cell_size > 0.0;
-    if (grid.max_bytes == 0) grid.max_bytes = budget / 2;
+    if (grid.max_bytes == 0) grid.max_bytes = std::max<std::size_t>(1, budget / 2);
     auto textures = grid_and_pack(*resolved, grid, options.pack, clock);
     if (textures && !chosen && bytes_of(*textures) > budget) {
         grid.max_bytes = std::max(budget / kLeastGrid, room_beside(*textures, budget));

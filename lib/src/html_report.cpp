@@ -140,10 +140,10 @@ class Page {
     Status status_ = Done{};
 };
 
-std::string head(const Scene& scene, const ReportText& text) {
+std::string head(const Scene& scene, const ReportText& text, const Residual* residual) {
     const ConvertStats& stats = scene.found.stats;
     const ExplainedShares& shares = stats.shares;
-    const std::size_t bytes = stats.grid_bytes + stats.data_bytes;
+    const std::size_t bytes = stats.grid_bytes + stats.data_bytes + (residual ? residual->png.size() : 0);
     std::string page = "<h1>" + escaped(text.title) + "</h1><p>" + std::to_string(scene.map.image.width) + " x " +
                        std::to_string(scene.map.image.height) + " texels, " + scene.map.format + ", " +
                        std::to_string(scene.map.bit_depth) + " bits, channel " + escaped(scene.map.channel) +
@@ -152,7 +152,7 @@ std::string head(const Scene& scene, const ReportText& text) {
                        tile(percent(stats.p999, 2), "99.9th percentile of the error") +
                        tile(std::to_string(stats.paths), "paths") +
                        tile(std::to_string(stats.lines + stats.quadratics), "elements") +
-                       tile(decimal(static_cast<double>(bytes) / 1024.0, 1) + " KiB", "both textures") + "</div>";
+                       tile(decimal(static_cast<double>(bytes) / 1024.0, 1) + " KiB", residual ? "both textures and the residual" : "both textures") + "</div>";
     const auto part = [](double share, const char* color) {
         return "<div style=\"width:" + decimal(100.0 * std::clamp(share, 0.0, 1.0), 3) + "%;background:" + color + "\"></div>";
     };
@@ -160,7 +160,7 @@ std::string head(const Scene& scene, const ReportText& text) {
     page += "<div class=\"shares\">" + part(shares.steps, kKindColors[2]) + part(shares.lines, kKindColors[0]) +
             "</div><p>" + key(steps, "steps and levels explain " + percent(shares.steps, 2)) +
             key(lines, "grooves and ridges on top " + percent(shares.lines, 2)) +
-            key("#d8d8d4", "left to the normal maps " + percent(shares.left, 4)) + "</p>";
+            key("#d8d8d4", "left by the paths " + percent(shares.left, 4)) + "</p>";
     for (const std::string& note : text.notes) page += "<p>" + escaped(note) + "</p>";
     return page;
 }
@@ -272,7 +272,7 @@ Result<std::string> write_html_report(const HeightMap& map, const FoundPattern& 
              "content=\"width=device-width\"><title>" + escaped(text.title) + "</title><style>" + kStyle);
     for (std::size_t kind = 0; kind < 3; ++kind)
         page.add(std::string(".") + kKindNames[kind] + "{stroke:" + kKindColors[kind] + "}\n");
-    page.add("</style></head><body><main>" + head(scene, text));
+    page.add("</style></head><body><main>" + head(scene, text, residual));
     add_overview(scene, page);
     add_residual(residual, page);
     add_spots(scene, unpacked->pattern, threads, page);

@@ -94,6 +94,7 @@ struct Coded {
     RgbaImage picture;
     double scale = 1.0;
     double error = 0.0;
+    std::vector<std::uint8_t> png;  // once its size was asked for
 };
 
 // Every `step`th code, counted from that next to level.
@@ -206,23 +207,49 @@ void coarsen(const Scene& scene, Fields& fields, double error, Coded& coded) {
     }
 }
 
-std::optional<Coded> choose(const Scene& scene, const ResidualOptions& options, double error_without) {
+Coded code_size(const Scene& scene, Fields& fields, int halvings, double tolerance) {
+    SlopeGrid grid = fields.fit(halvings);
+    Coded coded = encode(grid, best_scale(grid, scene.threads));
+    coded.error = normal_error(scene, &grid);
+    if (halvings == 0) coarsen(scene, fields, tolerance / 2.0, coded);
+    return coded;
+}
+
+Status encode_once(Coded& coded) {
+    if (!coded.png.empty()) return Done{};
+    auto png = encode_png(coded.picture);
+    if (!png) return png.error();
+    coded.png = std::move(*png);
+    return Done{};
+}
+
+// What was chosen, if anything was.
+struct Choice {
+    std::optional<Coded> coded;
+    bool is_short = false;  // larger ones take too many bytes
+};
+
+Result<Choice> choose(const Scene& scene, const ResidualOptions& options, double error_without) {
     constexpr double kNearBest = 1.05, kNeededGain = 0.05;
-    const bool needed = error_without > options.tolerance;
+    const bool needed = error_without > options.tolerance, bounded = options.most_bytes != ResidualOptions{}.most_bytes;
     const double enough = needed ? options.tolerance : options.unneeded;
     std::vector<Coded> tried;
     Fields fields(scene);
+    Choice choice;
     double least = error_without;
     for (const int halvings : allowed_sizes(scene.map, needed ? options.most_texels : welcome_texels(scene, options))) {
-        SlopeGrid grid = fields.fit(halvings);
-        tried.push_back(encode(grid, best_scale(grid, scene.threads)));
-        tried.back().error = normal_error(scene, &grid);
-        if (halvings == 0) coarsen(scene, fields, options.tolerance / 2.0, tried.back());
-        least = std::min(least, tried.back().error);
+        Coded coded = code_size(scene, fields, halvings, options.tolerance);
+        if (bounded) {
+            if (const Status encoded = encode_once(coded); !encoded) return encoded.error();
+            if (choice.is_short = coded.png.size() > options.most_bytes; choice.is_short) break;
+        }
+        least = std::min(least, coded.error);
+        tried.push_back(std::move(coded));
         if (least <= enough) break;
     }
-    if (least > error_without * (1.0 - (needed ? kNeededGain : options.worthwhile))) return std::nullopt;
-    return first_within(tried, least <= enough ? enough : least * kNearBest);
+    if (least > error_without * (1.0 - (needed ? kNeededGain : options.worthwhile))) return choice;
+    choice.coded = first_within(tried, least <= enough ? enough : least * kNearBest);
+    return choice;
 }
 
 }  // namespace
@@ -237,13 +264,14 @@ Result<Residual> bake_residual(const Image& map, const Image& reconstruction, Ve
     residual.error = residual.error_without = normal_error(scene, nullptr);
     if (residual.error_without <= options.unneeded) return residual;
     auto chosen = choose(scene, options, residual.error_without);
-    if (!chosen) return residual;
-    auto png = encode_png(chosen->picture);
-    if (!png) return png.error();
-    residual.picture = std::move(chosen->picture);
-    residual.scale = chosen->scale;
-    residual.error = chosen->error;
-    residual.png = std::move(*png);
+    if (!chosen) return chosen.error();
+    residual.is_short = chosen->is_short;
+    if (!chosen->coded) return residual;
+    if (const Status encoded = encode_once(*chosen->coded); !encoded) return encoded.error();
+    residual.picture = std::move(chosen->coded->picture);
+    residual.scale = chosen->coded->scale;
+    residual.error = chosen->coded->error;
+    residual.png = std::move(chosen->coded->png);
     return residual;
 }
 

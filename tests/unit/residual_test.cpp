@@ -106,6 +106,26 @@ TEST(ResidualMap, GrainTakesAllItIsGiven) {
     EXPECT_GT(bound.error, 30.0);
 }
 
+TEST(ResidualMap, KeepsToItsBytes) {
+    const Image map = image_of(256, 256, hill), flat(256, 256, 0.1f);
+    const ResidualOptions close{.tolerance = 0.3, .unneeded = 0.3};
+    const Residual free = bake(map, flat, Wrap::repeat, close);
+    ResidualOptions tight = close;
+    tight.most_bytes = free.png.size();
+    EXPECT_EQ(bake(map, flat, Wrap::repeat, tight).png, free.png);
+    EXPECT_FALSE(free.is_short);
+    tight.most_bytes = free.png.size() - 1;
+    const Residual smaller = bake(map, flat, Wrap::repeat, tight);
+    EXPECT_TRUE(smaller.is_short);
+    EXPECT_LE(smaller.png.size(), tight.most_bytes);
+    EXPECT_LT(smaller.error, smaller.error_without);
+    tight.most_bytes = 0;
+    const Residual none = bake(map, flat, Wrap::repeat, tight);
+    EXPECT_TRUE(none.is_short);
+    EXPECT_EQ(none.picture.width, 0);
+    EXPECT_EQ(none.error, none.error_without);
+}
+
 TEST(ResidualMap, NothingLeftGivesNone) {
     const Residual constant = bake(Image(32, 16, 0.7f), Image(32, 16, 0.7f), Wrap::clamp);
     EXPECT_EQ(constant.picture.width, 0);

@@ -47,9 +47,10 @@ struct ConvertOptions {
     // path the residual is the core material's normal map too, and always worthwhile.
     ResidualOptions residual;
     AttachOptions attach;
-    // Bound on both textures together, as uploaded: elements are given up until they fit. 0: no bound, but they are given
-    // up, as far as that goes, beyond a sixteenth of the map's 8-bit size (16 KiB for small maps, 63 KiB up to 2048 x 2048),
-    // or beyond twice or four times that where a doubling explains 0.04 more of the map by paths and not by sheer number.
+    // Bound on both textures together, as uploaded, and the residual, as the PNG in the file: elements are given up until
+    // the textures fit, and the residual is one that fits into what they leave. 0: no bound, but elements are given up, as
+    // far as that goes, beyond a sixteenth of the map's 8-bit size (16 KiB for small maps, 63 KiB up to 2048 x 2048), or
+    // beyond twice or four times that where a doubling explains 0.04 more of the map by paths and not by sheer number.
     // Maps that come near 1/40 of their 8-bit size reach it by larger cells.
     std::size_t max_texture_bytes = 0;
     // Bound on the 99.9th percentile of the height error (ConvertStats::p999), a share of the range: curves are fitted
@@ -121,7 +122,8 @@ struct Converted : FoundPattern {
 // Ensures: the result depends on map and options alone, not on `threads`; the time in `stats` is the only thing that
 // differs between runs.
 // Fails with the error of the stage that failed, with invalid_argument when `progress` returns false, and with
-// invalid_argument when max_texture_bytes or max_error cannot be kept; the message holds a value that can, tried out.
+// invalid_argument when max_texture_bytes or max_error cannot be kept; the message holds a value that
+// can, tried out: of bytes about the least.
 // Throws std::logic_error when what was packed breaks the format, a bug.
 // Cost: that of vectorizing and refining, up to four times with max_error; the other stages together stay below a few
 // seconds for 2048 x 2048.

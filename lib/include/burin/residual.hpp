@@ -31,6 +31,7 @@ struct ResidualOptions {
     double worthwhile = 0.2;
     // Most texels; sides are those of the map divided by 1, 2, 4, ..., and at most 4096. 0: no residual.
     std::size_t most_texels = static_cast<std::size_t>(-1);
+    std::size_t most_bytes = static_cast<std::size_t>(-1);  // of the PNG
     int threads = 0;  // 0: as many as the machine has; the result does not depend on it
 };
 
@@ -43,6 +44,7 @@ struct Residual {
     std::vector<std::uint8_t> png;   // of the picture; empty without
     double error_without = 0.0;      // RMS angle of the paths alone, degrees
     double error = 0.0;              // with the residual; the same without one
+    bool is_short = false;           // a larger one would have been taken but for `most_bytes`
 };
 
 // Requires (asserted): maps of equal size, not empty, heights from 0 to 1 (1 = object surface, 0 = `depth` metres below
@@ -50,7 +52,7 @@ struct Residual {
 // Ensures: where the paths alone err by more than the tolerance, the smallest size that keeps it, or, where none does, the
 // smallest that comes within a twentieth of the best one; no residual where that takes less than a twentieth of the error
 // away. Where the paths keep the tolerance but are not as near as `unneeded`: by the same rule, a size of at most 1/64 of
-// the map's texels, if that is worthwhile. One of the map's own size has codes as coarse as half the tolerance allows. A map equal to its reconstruction gives none.
+// the map's texels, if that is worthwhile. A size whose PNG takes more than `most_bytes` is none that could be chosen. One of the map's own size has codes as coarse as half the tolerance allows. A map equal to its reconstruction gives none.
 // Equal input gives equal bytes, whatever the number of threads. Fails as encode_png.
 // Cost: some 30 ns a texel and thread, and 6 bytes of memory a texel (16 where sides may be those of the map); slopes are
 // fitted by least squares, weighted by how far they turn a normal.
