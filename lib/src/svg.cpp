@@ -96,13 +96,15 @@ std::string scales(const Path& path, double Element::*at_start, double Element::
     return spaced(path.elements, [&](const Element& e) { return pair_of(e.*at_start, e.*at_end); });
 }
 
-// What is drawn: the profile's width where the path is widest, and enough to be seen where a wall is vertical.
-double stroke_width(const Pattern& pattern, const Path& path) {
+// What is drawn: the profile's width where the path is widest. Where a wall is vertical or hardly leans, enough to be seen
+// when all of the page is, and undiluted. A width on the screen would do for any zoom, but in programs that do not know
+// `vector-effect` it would be metres.
+std::string stroke(const Pattern& pattern, const Path& path) {
     const auto& points = pattern.profiles[path.profile].points;
     double scale = 0.0;
     for (const Element& e : path.elements) scale = std::max({scale, e.width0, e.width1});
-    const double hair = std::min(pattern.size.x, pattern.size.y) / 2048.0;
-    return std::max((points.back().b - points.front().b) * scale, hair);
+    const double width = (points.back().b - points.front().b) * scale, hair = std::min(pattern.size.x, pattern.size.y) / 512.0;
+    return attribute("stroke-width", exact(std::max(width, hair))) + (width < hair ? attribute("stroke-opacity", "1") : "");
 }
 
 std::string path_element(const Pattern& pattern, std::size_t index) {
@@ -114,8 +116,7 @@ std::string path_element(const Pattern& pattern, std::size_t index) {
            unusual("start-cap", name_of(path.start_cap), "hip") + unusual("end-cap", name_of(path.end_cap), "hip") +
            unusual("widths", scales(path, &Element::width0, &Element::width1), "") +
            unusual("heights", scales(path, &Element::height0, &Element::height1), "") +
-           attribute("stroke-width", exact(stroke_width(pattern, path))) + attribute("d", path_data(path.elements)) +
-           "/>\n";
+           stroke(pattern, path) + attribute("d", path_data(path.elements)) + "/>\n";
 }
 
 std::string path_layer(const Pattern& pattern, PathKind kind, const char* label, const char* color) {

@@ -268,7 +268,10 @@ TEST(Svg, IsDrawnInMetresAsWideAsTheProfile) {
     ASSERT_EQ(paths.size(), 3u);
     EXPECT_DOUBLE_EQ(paths[0].attribute("stroke-width").as_double(), 0.006);  // 0.003, twice as wide at the end
     EXPECT_DOUBLE_EQ(paths[1].attribute("stroke-width").as_double(), 0.002);
-    EXPECT_DOUBLE_EQ(paths[2].attribute("stroke-width").as_double(), 0.1 / 2048);  // a vertical wall is seen all the same
+    // A vertical wall is seen all the same: two pixels of a page of a thousand, and no lighter than its colour.
+    EXPECT_DOUBLE_EQ(paths[2].attribute("stroke-width").as_double(), 0.1 / 512);
+    EXPECT_EQ(paths[2].attribute("stroke-opacity").as_double(0.6), 1.0);
+    EXPECT_EQ(paths[0].attribute("stroke-opacity").as_double(0.6), 0.6);
     EXPECT_STREQ(paths[0].attribute("d").as_string(), "M0.01,0.02 L0.11,0");
 }
 
