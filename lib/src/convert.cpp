@@ -187,21 +187,26 @@ Error refuse_error(const ConvertOptions& options, const Candidate& best) {
                        percent_above(best.stats.p999) + " %");
 }
 
-// Fits ever closer until 99.9 % of the texels keep the bound, or closer paths are no better.
+// Fits and refines anew from curves of other tolerances, and then once more, until 99.9 % of the texels keep the bound.
+// Closer curves are not closer to the map each time, since what is refined from them ends in other minima: each is tried,
+// looser ones too, and the best is kept.
 Result<Candidate> closer_within(const Source& source, ConvertOptions options, Candidate best, const Progress& progress,
                                 StageClock& clock) {
+    constexpr double kLoosest = 8.0;  // VectorizeOptions::tolerance
     const bool bytes_bound = options.max_texture_bytes > 0;
     const std::size_t budget = bytes_bound ? options.max_texture_bytes : source.map.image.texels.size();
-    constexpr std::size_t kElementBytes = 36;  // with its share of the grid
-    if (!bytes_bound) options.vectorize.most_elements = static_cast<int>(std::max<std::size_t>(budget / kElementBytes, 64));
-    for (int round = 0; round < 3 && best.stats.p999 > options.max_error; ++round) {
-        options.vectorize.tolerance = best.traced.tolerance / 2.0;
-        auto closer = fit_within(source, options, budget, progress, clock);
-        if (closer) closer = finish_candidate(std::move(*closer), source, options, budget, clock);
-        if (!closer || (bytes_bound && closer->bytes() > budget)) break;  // no room for closer paths
-        if (closer->stats.p999 > 0.98 * best.stats.p999) break;
-        best = std::move(*closer);
+    const double usual = best.traced.tolerance;
+    const auto take_better = [&](Result<Candidate> other) {
+        if (other && other->bytes() <= budget && other->stats.p999 < best.stats.p999) best = std::move(*other);
+    };
+    for (const double times : {0.5, 0.25, 2.0, 0.125}) {
+        if (best.stats.p999 <= options.max_error) return best;
+        options.vectorize.tolerance = std::min(kLoosest, times * usual);
+        auto other = fit_within(source, options, budget, progress, clock);
+        if (other) other = finish_candidate(std::move(*other), source, options, budget, clock);
+        take_better(std::move(other));
     }
+    if (best.stats.p999 > options.max_error) take_better(refine_candidate(best, source, options, budget, clock));
     if (best.stats.p999 > options.max_error) return refuse_error(options, best);
     return best;
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Bounds on error and bytes: what is written keeps them; one that cannot be kept is refused with a value that does work."""
 
+import argparse
 import json
 import os
 import re
@@ -74,8 +75,20 @@ def check_residual(runs, verdicts):
     verdicts.expect(any("within --max-bytes" in note for note in notes), f"that is said: {notes}")
 
 
+def check_search(runs, verdicts, plate):
+    """Curves of letters and arcs come far closer to the map than they are without a bound."""
+    words = ["--size", "0.2", "--depth", "0.0032"]
+    free = runs.kept(words, plate)
+    bound = 0.15
+    close = runs.kept(words + ["--max-error", str(bound)], plate)
+    verdicts.expect(close and close["p999"] * 100 <= bound < free["p999"] * 20, f"{bound} % is kept, without: {free['p999']}")
+
+
 def main():
-    arguments = harness.read_arguments()
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--burin", required=True)
+    parser.add_argument("--plate", required=True, help="the sample map")
+    arguments = parser.parse_args()
     verdicts = harness.Verdicts()
     with harness.Scratch() as folder:
         runs = Runs(arguments, verdicts, folder)
@@ -97,6 +110,7 @@ def main():
         verdicts.expect(easy["textures"] == free["textures"], "a bound that is kept anyway changes nothing")
         best = runs.refused(["--max-error", "0.001"], r"error of 0.001 % of range cannot be kept: .*; ([\d.]+) % works")
         verdicts.expect(runs.kept(["--max-error", best])["p999"] * 100 <= float(best), f"{best} % works as promised")
+        check_search(runs, verdicts, arguments.plate)
     verdicts.finish()
 
 

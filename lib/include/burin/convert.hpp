@@ -53,10 +53,10 @@ struct ConvertOptions {
     // beyond twice or four times that where a doubling explains 0.04 more of the map by paths and not by sheer number.
     // Maps that come near 1/40 of their 8-bit size reach it by larger cells.
     std::size_t max_texture_bytes = 0;
-    // Bound on the 99.9th percentile of the height error (ConvertStats::p999), a share of the range: curves are fitted
-    // ever closer until at most 1 texel in 1000 errs by more. 0: no bound. Range [0, 1]; without effect on
-    // `vectorize.tolerance`, with which the search begins. Without max_texture_bytes the textures may then grow to the
-    // map's own 8-bit size.
+    // Bound on the 99.9th percentile of the height error (ConvertStats::p999), a share of the range: until at most 1 texel
+    // in 1000 errs by more, curves of other tolerances are fitted and refined, and the best of them kept. 0: no bound.
+    // Range [0, 1]; without effect on `vectorize.tolerance`, with which the search begins. Without max_texture_bytes the
+    // textures may then grow to the map's own 8-bit size.
     double max_error = 0.0;
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
@@ -125,7 +125,7 @@ struct Converted : FoundPattern {
 // invalid_argument when max_texture_bytes or max_error cannot be kept; the message holds a value that
 // can, tried out: of bytes about the least.
 // Throws std::logic_error when what was packed breaks the format, a bug.
-// Cost: that of vectorizing and refining, up to four times with max_error; the other stages together stay below a few
+// Cost: that of vectorizing and refining, up to six times with max_error; the other stages together stay below a few
 // seconds for 2048 x 2048.
 Result<FoundPattern> find_pattern(const HeightMap& map, const ConvertOptions& options = {},
                                   const Progress& progress = {});
