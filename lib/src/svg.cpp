@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <functional>
+#include <utility>
 
 namespace burin {
 namespace {
@@ -60,7 +62,8 @@ std::string header(const Pattern& pattern) {
     const auto millimetres = [](double metres) { return exact(metres * 1000.0) + "mm"; };
     const Vec2 size = pattern.size;
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-           "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n    " +
+           "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+           "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n    " +
            attribute("width", millimetres(size.x)) + attribute("height", millimetres(size.y)) +
            attribute("viewBox", "0 0 " + exact(size.x) + " " + exact(size.y)) + "\n    " +
            attribute("data-burin-version", "1") + attribute("data-burin-size", pair_of(size.x, size.y)) +
@@ -96,15 +99,53 @@ std::string scales(const Path& path, double Element::*at_start, double Element::
     return spaced(path.elements, [&](const Element& e) { return pair_of(e.*at_start, e.*at_end); });
 }
 
-// What is drawn: the profile's width where the path is widest. Where a wall is vertical or hardly leans, enough to be seen
-// when all of the page is, and undiluted. A width on the screen would do for any zoom, but in programs that do not know
-// `vector-effect` it would be metres.
-std::string stroke(const Pattern& pattern, const Path& path) {
+// Least width of a stroke: where a wall is vertical or hardly leans, enough to be seen when all of the page is. A width on the
+// screen would do for any zoom, but in programs that do not know `vector-effect` it would be metres.
+double hair_width(const Pattern& pattern) { return std::min(pattern.size.x, pattern.size.y) / 512.0; }
+
+// The profile's width where the path is widest.
+double path_width(const Pattern& pattern, const Path& path) {
     const auto& points = pattern.profiles[path.profile].points;
     double scale = 0.0;
     for (const Element& e : path.elements) scale = std::max({scale, e.width0, e.width1});
-    const double width = (points.back().b - points.front().b) * scale, hair = std::min(pattern.size.x, pattern.size.y) / 512.0;
+    return (points.back().b - points.front().b) * scale;
+}
+
+std::string stroke(const Pattern& pattern, const Path& path) {
+    const double width = path_width(pattern, path), hair = hair_width(pattern);
     return attribute("stroke-width", exact(std::max(width, hair))) + (width < hair ? attribute("stroke-opacity", "1") : "");
+}
+
+Box control_box(const Path& path) {
+    Box box;
+    for (const Element& e : path.elements)
+        for (const Vec2 p : {e.p0, e.kind == ElementKind::line ? e.p0 : e.p1, e.p2}) {
+            box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+            box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+        }
+    return box;
+}
+
+// How many tiles on a span may be shifted and still reach into the first one.
+std::pair<int, int> shifts_onto(double low, double high, double size) {
+    return {static_cast<int>(std::ceil(-high / size)), static_cast<int>(std::floor((size - low) / size))};
+}
+
+// Where a path of a repeating pattern leaves the page, it comes back in at the other side: shown by clones of it.
+std::string clones(const Pattern& pattern, std::size_t index) {
+    const Path& path = pattern.paths[index];
+    if (pattern.wrap == Wrap::clamp || path.elements.empty()) return "";
+    const Box box = control_box(path);
+    const double half = 0.5 * std::max(path_width(pattern, path), hair_width(pattern));
+    const auto [left, right] = shifts_onto(box.low.x - half, box.high.x + half, pattern.size.x);
+    const auto [up, down] = shifts_onto(box.low.y - half, box.high.y + half, pattern.size.y);
+    std::string all;
+    for (int j = up; j <= down; ++j)
+        for (int i = left; i <= right; ++i)
+            if (i != 0 || j != 0)
+                all += "    <use" + attribute("xlink:href", "#path-" + std::to_string(index)) + attribute("x", exact(i * pattern.size.x)) +
+                       attribute("y", exact(j * pattern.size.y)) + "/>\n";
+    return all;
 }
 
 std::string path_element(const Pattern& pattern, std::size_t index) {
@@ -122,7 +163,7 @@ std::string path_element(const Pattern& pattern, std::size_t index) {
 std::string path_layer(const Pattern& pattern, PathKind kind, const char* label, const char* color) {
     std::string content;
     for (std::size_t i = 0; i < pattern.paths.size(); ++i)
-        if (path_kind(pattern, pattern.paths[i]) == kind) content += path_element(pattern, i);
+        if (path_kind(pattern, pattern.paths[i]) == kind) content += path_element(pattern, i) + clones(pattern, i);
     return layer(label, std::string("fill:none;stroke:") + color + ";stroke-opacity:0.6;stroke-linejoin:miter", content);
 }
 

@@ -231,6 +231,7 @@ TEST(Svg, GivesThePatternBackBitByBit) {
 Pattern three_kinds() {
     Pattern pattern;
     pattern.size = {0.2, 0.1};
+    pattern.wrap = Wrap::clamp;
     pattern.profiles = {{{{-0.001, 0}, {0, -0.002}, {0.002, 0}}, {}}, {{{-0.001, 0}, {0, 0.002}, {0.001, 0}}, {}},
                         {{{0, 0}, {0, -0.004}}, {}}};
     for (std::uint32_t profile = 0; profile < 3; ++profile) {
@@ -291,6 +292,26 @@ TEST(Svg, ClosesOnlyWhatReturnsToItsStart) {
     EXPECT_STREQ(paths[0].attribute("d").as_string(), "M0.01,0.02 L0.11,0 Q0.1,0.1 0.01,0.02 Z");
     EXPECT_STREQ(paths[1].attribute("d").as_string(), "M0.01,0.02 L0.11,0.03");
     EXPECT_STREQ(paths[1].attribute("data-burin-closed").as_string(), "yes");
+}
+
+TEST(Svg, ShowsOnThePageWhatLiesBesideIt) {
+    Pattern pattern = three_kinds();
+    pattern.wrap = Wrap::repeat;
+    pattern.paths.resize(2);
+    pattern.paths[0].elements[0].p0 = {-0.3, 0.05};  // the whole of it one and two tiles to the left
+    pattern.paths[0].elements[0].p2 = {-0.1, 0.05};
+    pattern.paths[1].elements[0].p0 = {0.05, 0.05};  // all of it on the page
+    pattern.paths[1].elements[0].p2 = {0.1, 0.06};
+    pugi::xml_document document;
+    const pugi::xml_node root = parse(pattern, document);
+    std::vector<std::string> shifts;
+    for (const pugi::xml_node layer : root.children("g"))
+        for (const pugi::xml_node clone : layer.children("use")) {
+            EXPECT_STREQ(clone.attribute("xlink:href").as_string(), "#path-0");
+            shifts.push_back(clone.attribute("x").as_string() + std::string(",") + clone.attribute("y").as_string());
+        }
+    EXPECT_EQ(shifts, (std::vector<std::string>{"0.2,0", "0.4,0"}));
+    expect_equal(pattern, read_pattern(root));
 }
 
 TEST(Svg, AnEmptyPatternIsADrawing) {
