@@ -174,8 +174,10 @@ void ProgressLine::finish() {
 std::string number_text(double value) { return format_text("%.4g", value); }
 
 std::string bytes_text(std::uint64_t bytes) {
-    if (bytes < 10240) return std::to_string(bytes) + " bytes";
-    return format_text("%.1f KiB", static_cast<double>(bytes) / 1024.0);
+    constexpr std::uint64_t kFew = 10, kKiB = 1024, kMiB = 1024 * kKiB;
+    if (bytes < kFew * kKiB) return std::to_string(bytes) + " bytes";
+    const bool many = bytes >= kFew * kMiB;
+    return format_text(many ? "%.1f MiB" : "%.1f KiB", static_cast<double>(bytes) / static_cast<double>(many ? kMiB : kKiB));
 }
 
 std::string explained_text(double share) { return format_text("%.4f", std::floor(share * 1e4) / 1e4); }

@@ -80,7 +80,7 @@ class ProgressLine {
     std::chrono::steady_clock::time_point begun_;
 };
 
-// Text for people: 4 significant digits; bytes with KiB from 10 KiB on; a share as per cent.
+// Text for people: 4 significant digits; bytes with KiB from 10 KiB on and MiB from 10 MiB on; a share as per cent.
 std::string number_text(double value);
 std::string bytes_text(std::uint64_t bytes);
 std::string explained_text(double share);  // four decimals, rounded down: 1 is all of it and nothing less

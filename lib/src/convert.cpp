@@ -163,7 +163,8 @@ Error refuse_bytes(const HeightMap& map, const ConvertOptions& options, std::siz
         trial = works > 0 ? fails + (works - fails) / 2 : trial + trial / 2;
     }
     return cannot_keep("a limit of " + std::to_string(options.max_texture_bytes) + " bytes for both textures",
-                       "giving up paths came down to " + std::to_string(reached) + " bytes",
+                       std::string("giving up paths does not come down to it") +
+                           (options.grid.cell_size > 0.0 ? " with cells of the size that was asked for" : ""),
                        std::to_string(works) + " bytes");
 }
 
@@ -180,7 +181,9 @@ std::string percent_above(double share) {
 }
 
 Error refuse_error(const ConvertOptions& options, const Candidate& best) {
-    std::string why = "the closest paths err by " + percent(best.stats.p999) + " % in the 99.9th percentile";
+    const std::size_t bytes = options.max_texture_bytes;
+    std::string why = "the closest paths " + (bytes > 0 ? "within " + std::to_string(bytes) + " bytes " : std::string()) +
+                      "err by " + percent(best.stats.p999) + " % in the 99.9th percentile";
     if (best.stats.p999_without_smooth < 0.8 * best.stats.p999)
         why += ", by " + percent(best.stats.p999_without_smooth) + " % but for soft ground, which is no path";
     return cannot_keep("a height error of " + percent(options.max_error) + " % of range", why,
@@ -194,7 +197,8 @@ Result<Candidate> closer_within(const Source& source, ConvertOptions options, Ca
                                 StageClock& clock) {
     constexpr double kLoosest = 8.0;  // VectorizeOptions::tolerance
     const bool bytes_bound = options.max_texture_bytes > 0;
-    const std::size_t budget = bytes_bound ? options.max_texture_bytes : source.map.image.texels.size();
+    const std::size_t texels = source.map.image.texels.size();
+    const std::size_t budget = bytes_bound ? options.max_texture_bytes : std::max(texels, default_budget(texels));
     const double usual = best.traced.tolerance;
     const auto take_better = [&](Result<Candidate> other) {
         if (other && other->bytes() <= budget && other->stats.p999 < best.stats.p999) best = std::move(*other);

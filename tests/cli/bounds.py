@@ -102,6 +102,8 @@ def main():
         least = runs.refused(["--max-bytes", "1"], r"limit of 1 bytes .* cannot be kept: .*; (\d+) bytes works")
         verdicts.expect(runs.kept(["--max-bytes", least])["total"] <= int(least), f"{least} bytes work as promised")
         runs.refused(["--max-bytes", str(int(least) * 7 // 8)], r"; (\d+) bytes works")
+        runs.refused(["--max-bytes", "900", "--cell-size", "0.02"], r"with cells of the size that was asked for; (\d+) bytes works")
+        runs.refused(["--max-bytes", "2K", "--max-error", "0.001"], r"the closest paths within 2048 bytes err .*; ([\d.]+) % works")
         verdicts.expect(runs.kept(["--max-bytes", "1G"])["bounds"]["max_bytes"] == 2**30, "1G is a GiB")
         check_residual(runs, verdicts)
 

@@ -56,7 +56,7 @@ struct ConvertOptions {
     // Bound on the 99.9th percentile of the height error (ConvertStats::p999), a share of the range: until at most 1 texel
     // in 1000 errs by more, curves of other tolerances are fitted and refined, and the best of them kept. 0: no bound.
     // Range [0, 1]; without effect on `vectorize.tolerance`, with which the search begins. Without max_texture_bytes the
-    // textures may then grow to the map's own 8-bit size.
+    // textures may then grow to the map's own 8-bit size, and to 16 KiB on small maps.
     double max_error = 0.0;
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
