@@ -180,12 +180,27 @@ std::string percent_above(double share) {
     return percent(std::ceil(share * 100.0 * scale) / scale / 100.0);
 }
 
-Error refuse_error(const ConvertOptions& options, const Candidate& best) {
+// The 99.9th percentile of the height error without the texels next to the borders.
+double p999_inside(const Image& drawn, const Image& map) {
+    constexpr int kRim = 8;  // texels
+    std::vector<float> errors;
+    for (int y = kRim; y < map.height - kRim; ++y)
+        for (int x = kRim; x < map.width - kRim; ++x) errors.push_back(std::abs(drawn.at(x, y) - map.at(x, y)));
+    if (errors.empty()) return 0.0;
+    const auto at = errors.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(errors.size() - 1) * 0.999);
+    std::nth_element(errors.begin(), at, errors.end());
+    return static_cast<double>(*at);
+}
+
+Error refuse_error(const HeightMap& map, const ConvertOptions& options, const Candidate& best) {
     const std::size_t bytes = options.max_texture_bytes;
     std::string why = "the closest paths " + (bytes > 0 ? "within " + std::to_string(bytes) + " bytes " : std::string()) +
                       "err by " + percent(best.stats.p999) + " % in the 99.9th percentile";
     if (best.stats.p999_without_smooth < 0.8 * best.stats.p999)
         why += ", by " + percent(best.stats.p999_without_smooth) + " % but for soft ground, which is no path";
+    if (options.vectorize.wrap == WrapChoice::automatic && best.stats.repeat && best.heights.texels.size() == map.image.texels.size())
+        if (const double inside = p999_inside(best.heights, map.image); inside > 0.0 && inside < 0.5 * best.stats.p999)
+            why += ", by " + percent(inside) + " % but for the borders, which a map that does not repeat need not join: wrap clamp";
     return cannot_keep("a height error of " + percent(options.max_error) + " % of range", why,
                        percent_above(best.stats.p999) + " %");
 }
@@ -211,7 +226,7 @@ Result<Candidate> closer_within(const Source& source, ConvertOptions options, Ca
         take_better(std::move(other));
     }
     if (best.stats.p999 > options.max_error) take_better(refine_candidate(best, source, options, budget, clock));
-    if (best.stats.p999 > options.max_error) return refuse_error(options, best);
+    if (best.stats.p999 > options.max_error) return refuse_error(source.map, options, best);
     return best;
 }
 
