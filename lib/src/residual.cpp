@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include <burin/format/texels.hpp>
 
@@ -183,13 +184,6 @@ std::vector<int> allowed_sizes(const Image& map, std::size_t most_texels) {
     return sizes;
 }
 
-// The smallest that errs by no more than that.
-std::optional<Coded> first_within(std::vector<Coded>& tried, double error) {
-    for (Coded& coded : tried)
-        if (coded.error <= error) return std::move(coded);
-    return std::nullopt;
-}
-
 // Most texels of a residual that is welcome, but not needed to keep the tolerance.
 std::size_t welcome_texels(const Scene& scene, const ResidualOptions& options) {
     return std::min(options.most_texels, scene.map.texels.size() / 64);
@@ -223,32 +217,55 @@ Status encode_once(Coded& coded) {
     return Done{};
 }
 
+// What a residual is chosen by.
+struct Wish {
+    double error_without = 0.0;
+    double enough = 0.0;     // error that ends the search
+    double must_gain = 0.0;  // share of the error that it takes away at least
+};
+
+Wish wish_for(const ResidualOptions& options, double error_without) {
+    constexpr double kNeededGain = 0.05;
+    const bool needed = error_without > options.tolerance;
+    return {error_without, needed ? options.tolerance : options.unneeded, needed ? kNeededGain : options.worthwhile};
+}
+
+// Of sizes that grow, the place of the smallest that errs by no more than is enough, or nearly as little as the best.
+std::optional<std::size_t> pick(std::span<const Coded> sizes, const Wish& wish) {
+    constexpr double kNearBest = 1.05;
+    double least = wish.error_without;
+    for (const Coded& coded : sizes) least = std::min(least, coded.error);
+    if (least > wish.error_without * (1.0 - wish.must_gain)) return std::nullopt;
+    const double most = least <= wish.enough ? wish.enough : least * kNearBest;
+    const auto first = std::find_if(sizes.begin(), sizes.end(), [&](const Coded& coded) { return coded.error <= most; });
+    if (first == sizes.end()) return std::nullopt;
+    return static_cast<std::size_t>(first - sizes.begin());
+}
+
 // What was chosen, if anything was.
 struct Choice {
     std::optional<Coded> coded;
-    bool is_short = false;  // larger ones take too many bytes
+    bool is_short = false;  // a larger one would have been, but takes too many bytes
 };
 
-Result<Choice> choose(const Scene& scene, const ResidualOptions& options, double error_without) {
-    constexpr double kNearBest = 1.05, kNeededGain = 0.05;
-    const bool needed = error_without > options.tolerance, bounded = options.most_bytes != ResidualOptions{}.most_bytes;
-    const double enough = needed ? options.tolerance : options.unneeded;
+Result<Choice> choose(const Scene& scene, const ResidualOptions& options, const Wish& wish) {
+    const bool needed = wish.error_without > options.tolerance, bounded = options.most_bytes != ResidualOptions{}.most_bytes;
     std::vector<Coded> tried;
+    std::size_t fitting = 0;  // of them, those that keep to the bytes; larger ones take more
     Fields fields(scene);
-    Choice choice;
-    double least = error_without;
     for (const int halvings : allowed_sizes(scene.map, needed ? options.most_texels : welcome_texels(scene, options))) {
-        Coded coded = code_size(scene, fields, halvings, options.tolerance);
-        if (bounded) {
+        tried.push_back(code_size(scene, fields, halvings, options.tolerance));
+        Coded& coded = tried.back();
+        const bool may_fit = fitting + 1 == tried.size();
+        if (may_fit && bounded)
             if (const Status encoded = encode_once(coded); !encoded) return encoded.error();
-            if (choice.is_short = coded.png.size() > options.most_bytes; choice.is_short) break;
-        }
-        least = std::min(least, coded.error);
-        tried.push_back(std::move(coded));
-        if (least <= enough) break;
+        if (may_fit && coded.png.size() <= options.most_bytes) ++fitting;
+        if (coded.error <= wish.enough) break;
     }
-    if (least > error_without * (1.0 - (needed ? kNeededGain : options.worthwhile))) return choice;
-    choice.coded = first_within(tried, least <= enough ? enough : least * kNearBest);
+    const auto wanted = pick(tried, wish), chosen = pick(std::span(tried).first(fitting), wish);
+    Choice choice;
+    choice.is_short = wanted != chosen;
+    if (chosen) choice.coded = std::move(tried[*chosen]);
     return choice;
 }
 
@@ -263,7 +280,7 @@ Result<Residual> bake_residual(const Image& map, const Image& reconstruction, Ve
     Residual residual;
     residual.error = residual.error_without = normal_error(scene, nullptr);
     if (residual.error_without <= options.unneeded) return residual;
-    auto chosen = choose(scene, options, residual.error_without);
+    auto chosen = choose(scene, options, wish_for(options, residual.error_without));
     if (!chosen) return chosen.error();
     residual.is_short = chosen->is_short;
     if (!chosen->coded) return residual;

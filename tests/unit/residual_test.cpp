@@ -124,6 +124,10 @@ TEST(ResidualMap, KeepsToItsBytes) {
     EXPECT_TRUE(none.is_short);
     EXPECT_EQ(none.picture.width, 0);
     EXPECT_EQ(none.error, none.error_without);
+    // What would not have been taken anyway is not missed.
+    const ResidualOptions fussy{.unneeded = 0.0, .worthwhile = 1.0, .most_bytes = 0};
+    const Image wave = image_of(64, 64, [](double u, double) { return 0.5 + 0.05 * std::sin(2 * kPi * u); });
+    EXPECT_FALSE(bake(wave, Image(64, 64, 0.5f), Wrap::repeat, fussy).is_short);
 }
 
 TEST(ResidualMap, NothingLeftGivesNone) {

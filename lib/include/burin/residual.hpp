@@ -44,7 +44,7 @@ struct Residual {
     std::vector<std::uint8_t> png;   // of the picture; empty without
     double error_without = 0.0;      // RMS angle of the paths alone, degrees
     double error = 0.0;              // with the residual; the same without one
-    bool is_short = false;           // a larger one would have been taken but for `most_bytes`
+    bool is_short = false;           // but for `most_bytes` a larger one would have been taken
 };
 
 // Requires (asserted): maps of equal size, not empty, heights from 0 to 1 (1 = object surface, 0 = `depth` metres below
