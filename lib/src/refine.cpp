@@ -12,6 +12,7 @@
 #include "refine_curves.hpp"
 #include "refine_ends.hpp"
 #include "refine_forward.hpp"
+#include "refine_hold.hpp"
 #include "refine_parameters.hpp"
 #include "refine_sampling.hpp"
 #include "refine_sections.hpp"
@@ -27,6 +28,7 @@ constexpr double kLeastThreshold = 0.004;  // map scale: one step of an 8-bit ma
 constexpr double kLeastDeviation = 1e-5;    // map scale: rounding of a 16-bit map
 constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
+constexpr double kLaterDamping = 1e-2;       // of what was fitted before: less is refused more often
 constexpr double kSlower = 0.3;              // damping below it hardly shortens a step
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
 constexpr double kStraighterMayDiffer[] = {0.1, 0.03, 0.01};  // of a profile's relief, root mean square
@@ -48,8 +50,9 @@ constexpr double kClean = 2e-3;  // map scale: a map that is farther off its mod
 // Steps are so many that they look at this number of texels, but some at least: large maps tell in fewer.
 constexpr std::size_t kMostLooks = 800000;
 constexpr int kFewestSteps = 3;
+constexpr int kFewestLater = 2;     // of what was fitted before
 constexpr int kMostRefused = 8;    // steps in a row
-constexpr int kHoldRounds = 3;
+constexpr int kHoldRounds = 6;    // in the first half, what crosses stays near the crossing alone
 
 // Standard deviation of the residuals on walls, where misplacement shows, or off them; outliers do not count.
 double deviation_of(const std::vector<Residual>& residuals, bool on_walls = true) {
@@ -149,11 +152,12 @@ class Refinement {
 
     // Damped Gauss-Newton steps from `start` until nothing is gained.
     Result<State> run(const Pattern& start, const Model& model, RefineReport& report) const {
-        Result<State> best = begin(start, model);
+        Result<State> best = begin(start, model, report.iterations > 0 ? kLaterDamping : kFirstDamping);
         if (!best) return best;
         report.unknowns = best->parameters.count();
         const std::size_t looks = std::max<std::size_t>(1, best->prediction.residuals.size());
-        const int affordable = std::max(kFewestSteps, static_cast<int>(kMostLooks / looks));
+        const int fewest = report.iterations > 0 ? kFewestLater : kFewestSteps;
+        const int affordable = std::max(fewest, static_cast<int>(kMostLooks / looks));
         const int most = report.unknowns > 0 ? std::min({model.steps, options_.iterations, affordable}) : 0;
         int refused = 0;  // steps in a row
         for (int i = 0; i < most && refused < kMostRefused; ++i) {
@@ -201,12 +205,6 @@ class Refinement {
     }
 
   private:
-    static std::vector<std::uint8_t> resolving_paths(const Pattern& pattern, const ResolvedPattern& resolved) {
-        std::vector<std::uint8_t> resolves(pattern.paths.size(), 0);
-        for (const ResolvedElement& element : resolved.elements) resolves[element.path] = 1;
-        return resolves;
-    }
-
     // The model's map and its equations, at a state's pattern.
     void predict(State& state, const ResolvedPattern& resolved, const Model& model, double threshold) const {
         state.elements = state.parameters.of_elements(state.pattern, resolved);
@@ -216,10 +214,10 @@ class Refinement {
         state.resolves = resolving_paths(state.pattern, resolved);
     }
 
-    Result<State> begin(const Pattern& start, const Model& model) const {
+    Result<State> begin(const Pattern& start, const Model& model, double first_damping) const {
         Pattern tied = start;
         Parameters parameters(tied, options_);
-        std::vector<double> damping(parameters.count(), kFirstDamping);
+        std::vector<double> damping(parameters.count(), first_damping);
         State state{std::move(tied), std::move(parameters), {}, {}, std::move(damping), {}};
         const Result<ResolvedPattern> resolved = resolve_pattern(state.pattern, resolve_options());
         if (!resolved) return resolved.error();
@@ -274,8 +272,8 @@ class Refinement {
         return worse;
     }
 
-    // Moves `next` on from `from`, all but what rests. Paths that would then resolve no more, since a step path of theirs
-    // crosses another, stay where they are from now on: shorter steps of everything else would not help them.
+    // Moves `next` on from `from`, all but what rests. Where paths would then resolve no more, since step paths cross, they
+    // stay as they are from now on: shorter steps of everything else would not help them.
     Result<ResolvedPattern> take_step(State& from, const NormalEquations& equations, std::vector<std::uint8_t> resting,
                                       State& next) const {
         for (int round = 0;; ++round) {
@@ -285,15 +283,13 @@ class Refinement {
             next.parameters.apply(equations.step(from.damping, resting), options_.max_shift_texels, next.pattern);
             Result<ResolvedPattern> resolved = resolve_pattern(next.pattern, resolve_options());
             if (!resolved) return resolved;
-            const std::vector<std::uint8_t> resolves = resolving_paths(next.pattern, *resolved);
-            bool any_lost = false;
-            for (std::size_t path = 0; path < resolves.size(); ++path) {
-                if (resolves[path] || !from.resolves[path]) continue;
-                from.parameters.hold(static_cast<int>(path), from.pattern.paths[path].elements.size());
-                any_lost = true;
-            }
-            if (!any_lost) return resolved;
+            const std::vector<std::size_t> lost = lost_paths(from.resolves, resolving_paths(next.pattern, *resolved));
+            if (lost.empty()) return resolved;
             if (round == kHoldRounds) return Error{ErrorCode::invalid_input, "a step loses paths"};
+            if (round < kHoldRounds / 2 && !resolved->stats.crossings.empty())
+                hold_crossings(resolved->stats.crossings, next.pattern, from.parameters);
+            else
+                hold_paths(lost, from.elements, from.parameters);
         }
     }
 
@@ -409,11 +405,7 @@ std::vector<ElementIndex> strained_quadratics(const State& state, int most) {
 }
 
 // Whether a path that is left in the first state is none in the second. A robust misfit hardly sees that.
-bool loses_paths(const State& before, const State& after) {
-    for (std::size_t i = 0; i < std::min(before.resolves.size(), after.resolves.size()); ++i)
-        if (before.resolves[i] && !after.resolves[i]) return true;
-    return false;
-}
+bool loses_paths(const State& before, const State& after) { return !lost_paths(before.resolves, after.resolves).empty(); }
 
 // Refines `candidate` and puts it in the place of `best` when its misfit is at most `share` of the best one's.
 bool keep_better(const Refinement& refinement, const Model& model, const Pattern& candidate, double share, State& best,
@@ -457,27 +449,26 @@ std::vector<ProfileMisfit> misfit_by_profile(const State& state, double threshol
     return misfits;
 }
 
-// With straighter profiles, each where the map hardly shows the difference.
-void keep_straighter(const Refinement& refinement, const Model& model, double share, State& best, RefineReport& report) {
-    Pattern straighter = best.pattern;
-    if (!straighten_sections(straighter, share)) return;
-    Result<State> trial = refinement.run(straighter, model, report);
-    if (!trial || loses_paths(best, *trial)) return;
+// With straighter profiles, each as much so as the map hardly shows the difference.
+void keep_straighter(const Refinement& refinement, const Model& model, State& best, RefineReport& report) {
     const double threshold = threshold_of(deviation_of(best.prediction.residuals));
     const std::vector<ProfileMisfit> before = misfit_by_profile(best, threshold, refinement.damage());
-    const std::vector<ProfileMisfit> after = misfit_by_profile(*trial, threshold, refinement.damage());
-    Pattern mixed = trial->pattern;
-    std::vector<std::uint8_t> stays(before.size(), 0);
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        stays[i] = !before[i].allows(after[i].cost);
-        if (stays[i]) mixed.profiles[i] = best.pattern.profiles[i];
+    std::vector<std::uint8_t> settled(before.size(), 0);
+    Pattern mixed = best.pattern;
+    for (const double share : kStraighterMayDiffer) {
+        Pattern straighter = mixed;
+        if (!straighten_sections(straighter, share, settled)) continue;
+        Result<State> trial = refinement.run(straighter, model, report);
+        if (!trial || loses_paths(best, *trial)) continue;
+        const std::vector<ProfileMisfit> after = misfit_by_profile(*trial, threshold, refinement.damage());
+        for (std::size_t i = 0; i < before.size(); ++i) settled[i] = before[i].allows(after[i].cost);
+        mixed = with_sections(trial->pattern, best.pattern, settled);
+        if (std::find(settled.begin(), settled.end(), 0) != settled.end()) continue;
+        if (misfit(trial->prediction, threshold) <= kDamageMayCost * misfit(best.prediction, threshold)) best = std::move(*trial);
+        return;
     }
-    for (std::size_t i = 0; i < mixed.paths.size(); ++i)
-        if (stays[mixed.paths[i].profile]) mixed.paths[i] = best.pattern.paths[i];
-    if (std::find(stays.begin(), stays.end(), 1) != stays.end())
+    if (std::find(settled.begin(), settled.end(), 1) != settled.end())
         keep_better(refinement, model, mixed, kDamageMayCost, best, report);
-    else if (misfit(trial->prediction, threshold) <= kDamageMayCost * misfit(best.prediction, threshold))
-        best = std::move(*trial);
 }
 
 // Of the quadratics, those around which the second state is off by enough less.
@@ -528,7 +519,7 @@ Result<State> refine_roughly(const Refinement& refinement, const Pattern& start,
     if (!best) return best;
     if (options.profiles) {
         keep_simpler(refinement, kRough, *best, report);
-        for (const double share : kStraighterMayDiffer) keep_straighter(refinement, kRough, share, *best, report);
+        keep_straighter(refinement, kRough, *best, report);
     }
     int splits = options.most_splits;
     for (int round = 0; round < kSplitRounds && options.positions && options.elements; ++round) {

@@ -50,15 +50,15 @@ double nearest_parameter(const ElementFrame& f, Vec2 p, double guess) {
             if (dot(d, d) < best) best = dot(d, d), s = 0.25 * i;
         }
     }
+    const Vec2 leg = f.p1 - f.p0, from = f.p0 - p;
     for (int i = 0; i < 12; ++i) {
-        const Vec2 d = curve_point(f, s) - p;
-        const Vec2 first = 2.0 * (lerp(f.p1 - f.p0, f.p2 - f.p1, s));
-        const double slope = dot(d, first);
-        double curvature = dot(first, first) + 2.0 * dot(d, second);
-        curvature = std::max(curvature, 0.1 * dot(first, first));
-        const double next = std::clamp(s - slope / std::max(curvature, 1e-300), 0.0, 1.0);
+        const Vec2 half = leg + second * s;  // of the first derivative
+        const Vec2 d = from + (leg + half) * s;
+        const double square = dot(half, half);
+        const double curvature = std::max(2.0 * square + dot(d, second), 0.2 * square);
+        const double next = std::clamp(s - dot(d, half) / std::max(curvature, 1e-300), 0.0, 1.0);
         // The next step would be the square of this one.
-        const bool settled = std::abs(next - s) < 1e-5;
+        const bool settled = std::abs(next - s) < 1e-4;
         s = next;
         if (settled) break;
     }

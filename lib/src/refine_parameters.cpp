@@ -397,10 +397,13 @@ void Parameters::number_scales(const Pattern& pattern) {
     }
 }
 
-void Parameters::hold(int path, std::size_t elements) {
-    for (std::size_t element = 0; element < elements; ++element)
-        for (int point = 0; point < 3; ++point)
-            for (const PointTerm& term : nodes_.terms(path, static_cast<int>(element), point)) held_[term.unknown] = 1;
+void Parameters::hold(int path, int element) {
+    for (int point = 0; point < 3; ++point)
+        for (const PointTerm& term : nodes_.terms(path, element, point)) held_[term.unknown] = 1;
+}
+
+void Parameters::hold(const std::vector<int>& unknowns) {
+    for (const int unknown : unknowns) held_[unknown] = 1;
 }
 
 void Parameters::apply(const std::vector<double>& step, double most_shift, Pattern& pattern) {

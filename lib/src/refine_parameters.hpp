@@ -50,8 +50,9 @@ class Parameters {
     const std::vector<double>& stiffness() const { return stiffness_; }
     double largest_shift() const { return nodes_.largest_shift(); }
 
-    // The points of a path, and what they hang on, stay from now on. `held`: 1 for the unknowns that do.
-    void hold(int path, std::size_t elements);
+    // The points of an element, and what they hang on, stay from now on. `held`: 1 for the unknowns that do.
+    void hold(int path, int element);
+    void hold(const std::vector<int>& unknowns);
     const std::vector<std::uint8_t>& held() const { return held_; }
 
     // Moves the pattern by `step`, keeping its structure.

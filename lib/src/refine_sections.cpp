@@ -262,12 +262,31 @@ bool straighten(Profile& profile, double share) {
     return true;
 }
 
+void take_scales(const Path& from, Path& to) {
+    to.level = from.level;
+    for (std::size_t i = 0; i < to.elements.size(); ++i) {
+        Element& e = to.elements[i];
+        const Element& other = from.elements[i];
+        e.width0 = other.width0, e.width1 = other.width1;
+        e.height0 = other.height0, e.height1 = other.height1;
+    }
+}
+
 }  // namespace
 
-bool straighten_sections(Pattern& pattern, double share) {
+bool straighten_sections(Pattern& pattern, double share, const std::vector<std::uint8_t>& stay) {
     bool changed = false;
-    for (Profile& profile : pattern.profiles) changed |= straighten(profile, share);
+    for (std::size_t i = 0; i < pattern.profiles.size(); ++i)
+        if (!stay[i]) changed |= straighten(pattern.profiles[i], share);
     return changed;
+}
+
+Pattern with_sections(Pattern pattern, const Pattern& other, const std::vector<std::uint8_t>& stay) {
+    for (std::size_t i = 0; i < stay.size(); ++i)
+        if (!stay[i]) pattern.profiles[i] = other.profiles[i];
+    for (std::size_t i = 0; i < pattern.paths.size(); ++i)
+        if (!stay[pattern.paths[i].profile]) take_scales(other.paths[i], pattern.paths[i]);
+    return pattern;
 }
 
 }  // namespace burin::refinement

@@ -40,8 +40,9 @@ Status connect(Work& work) {
     for (;;) {
         ResolveStats stats = before;
         stats.dropped_paths = work.stats.dropped_paths;
-        stats.first_dropped = work.stats.first_dropped;
-        work.stats = stats;
+        stats.first_dropped = std::move(work.stats.first_dropped);
+        stats.crossings = std::move(work.stats.crossings);
+        work.stats = std::move(stats);
         work.paths = paths;
         work.junctions.clear();
         std::vector<PathError> errors = connect_ends(work);

@@ -270,6 +270,7 @@ std::vector<PathError> split_at_steps(Work& work) {
         if (a.step && b.step) {
             const std::size_t loser =
                 a.elements.size() < b.elements.size() ? crossing.path[0] : crossing.path[1];
+            work.stats.crossings.push_back({{a.source, b.source}, wrapped(work, crossing.position)});
             errors.push_back({loser, "step path " + std::to_string(a.source) + " crosses step path " +
                                          std::to_string(b.source) + " at " +
                                          position_text(wrapped(work, crossing.position)) +

@@ -314,6 +314,40 @@ TEST(Refine, KeepsStructure) {
     EXPECT_EQ(groove[0].h, 0.0);
 }
 
+// A closed step path of straight lines: a regular polygon.
+Path ring(Vec2 centre, int corners, double radius, double level, std::uint32_t profile) {
+    Path path;
+    path.closed = true;
+    path.level = level;
+    path.profile = profile;
+    const auto corner = [&](int k) {
+        const double angle = 2.0 * 3.14159265358979323846 * (k % corners + 0.5) / corners;
+        return centre + Vec2{std::cos(angle), std::sin(angle)} * radius;
+    };
+    for (int k = 0; k < corners; ++k) path.elements.push_back({ElementKind::line, corner(k), {}, corner(k + 1)});
+    return path;
+}
+
+// Two rims that the map shows as one would cross when they are fitted; a square elsewhere is fitted all the same.
+TEST(Refine, StepsThatWouldCrossKeepNothingElseFromMoving) {
+    Pattern drawn;
+    drawn.size = {128.0, 128.0};
+    drawn.depth = drawn.base_offset = 1.0;
+    drawn.outer_level = 0.4;
+    for (const double rise : {0.4, 0.2}) drawn.profiles.push_back({{{-0.5, 0.0}, {0.5, -rise}}, {}});
+    const Vec2 plateau{90.0, 84.0};
+    Pattern start = drawn;
+    drawn.paths = {ring({34.0, 34.0}, 4, 18.0, 0.8, 0), ring(plateau, 12, 20.0, 0.8, 0)};
+    start.paths = {ring({34.3, 33.8}, 4, 18.2, 0.8, 0), ring(plateau, 12, 20.4, 0.6, 1), ring(plateau, 8, 19.55, 0.8, 1)};
+    const Image map = map_of(drawn, 128, 128, 16);
+    for (Pattern* p : {&drawn, &start}) ASSERT_TRUE(resolve_pattern(*p).ok());
+    ASSERT_TRUE(refine_pattern(start, map).ok());
+    EXPECT_TRUE(resolve_pattern(start).ok());
+    ASSERT_EQ(start.paths.size(), 3u);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_LT(length(start.paths[0].elements[i].p0 - drawn.paths[0].elements[i].p0), 0.1);  // its start is off by 0.17 to 0.56
+}
+
 TEST(Refine, ThreadsDoNotMatter) {
     const Pattern drawn = bench::random_plate(256, {5.0, 1.0}, 4);
     const Image map = map_of(drawn, 256, 256, 4);

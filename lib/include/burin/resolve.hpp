@@ -78,6 +78,12 @@ struct Junction {
     Vec2 position;
 };
 
+// Where two step paths cross, or one crosses itself: indices into Pattern::paths, and a place, metres, in the tile.
+struct StepCrossing {
+    std::uint32_t path[2] = {0, 0};
+    Vec2 position;
+};
+
 // What was tolerated. Counts of zero mean that the pattern was taken exactly as given.
 struct ResolveStats {
     int dropped_elements = 0;   // of length zero, or equal to another element of the same style
@@ -87,6 +93,7 @@ struct ResolveStats {
     int uneven_levels = 0;      // step paths off the level of a step facing them; brought together if near
     int dropped_paths = 0;      // lenient only: paths that would have been an error
     std::string first_dropped;  // the message that the first of them would have been
+    std::vector<StepCrossing> crossings;  // lenient only: for the sake of which paths were dropped
 };
 
 struct ResolvedPattern {
