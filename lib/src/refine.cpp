@@ -28,7 +28,6 @@ constexpr double kLeastThreshold = 0.004;  // map scale: one step of an 8-bit ma
 constexpr double kLeastDeviation = 1e-5;    // map scale: rounding of a 16-bit map
 constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
-constexpr double kLaterDamping = 1e-2;       // of what was fitted before: less is refused more often
 constexpr double kSlower = 0.3;              // damping below it hardly shortens a step
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
 constexpr double kStraighterMayDiffer[] = {0.1, 0.03, 0.01};  // of a profile's relief, root mean square
@@ -89,7 +88,7 @@ struct Model {
     int steps = 0;           // most of them
     double settled = 0.0;    // the iteration ends when a step gains less than this share of the cost
 };
-constexpr Model kRough{true, kWhole, 0.0, 12, 3e-3};
+constexpr Model kRough{true, kWhole, 0.0, 12, 1e-3};
 constexpr Model kClose{false, 2, 0.05, 6, 2e-3};
 // Off by not more than a share of what the map is off by.
 Model exact_model(double deviation) { return {false, kFineDivisions, kPrecision * deviation, 12, 1e-3}; }
@@ -152,7 +151,7 @@ class Refinement {
 
     // Damped Gauss-Newton steps from `start` until nothing is gained.
     Result<State> run(const Pattern& start, const Model& model, RefineReport& report) const {
-        Result<State> best = begin(start, model, report.iterations > 0 ? kLaterDamping : kFirstDamping);
+        Result<State> best = begin(start, model);
         if (!best) return best;
         report.unknowns = best->parameters.count();
         const std::size_t looks = std::max<std::size_t>(1, best->prediction.residuals.size());
@@ -214,10 +213,10 @@ class Refinement {
         state.resolves = resolving_paths(state.pattern, resolved);
     }
 
-    Result<State> begin(const Pattern& start, const Model& model, double first_damping) const {
+    Result<State> begin(const Pattern& start, const Model& model) const {
         Pattern tied = start;
         Parameters parameters(tied, options_);
-        std::vector<double> damping(parameters.count(), first_damping);
+        std::vector<double> damping(parameters.count(), kFirstDamping);
         State state{std::move(tied), std::move(parameters), {}, {}, std::move(damping), {}};
         const Result<ResolvedPattern> resolved = resolve_pattern(state.pattern, resolve_options());
         if (!resolved) return resolved.error();
@@ -463,9 +462,7 @@ void keep_straighter(const Refinement& refinement, const Model& model, State& be
         const std::vector<ProfileMisfit> after = misfit_by_profile(*trial, threshold, refinement.damage());
         for (std::size_t i = 0; i < before.size(); ++i) settled[i] = before[i].allows(after[i].cost);
         mixed = with_sections(trial->pattern, best.pattern, settled);
-        if (std::find(settled.begin(), settled.end(), 0) != settled.end()) continue;
-        if (misfit(trial->prediction, threshold) <= kDamageMayCost * misfit(best.prediction, threshold)) best = std::move(*trial);
-        return;
+        if (std::find(settled.begin(), settled.end(), 0) == settled.end()) break;
     }
     if (std::find(settled.begin(), settled.end(), 1) != settled.end())
         keep_better(refinement, model, mixed, kDamageMayCost, best, report);

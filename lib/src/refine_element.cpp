@@ -58,7 +58,7 @@ double nearest_parameter(const ElementFrame& f, Vec2 p, double guess) {
         const double curvature = std::max(2.0 * square + dot(d, second), 0.2 * square);
         const double next = std::clamp(s - dot(d, half) / std::max(curvature, 1e-300), 0.0, 1.0);
         // The next step would be the square of this one.
-        const bool settled = std::abs(next - s) < 1e-4;
+        const bool settled = std::abs(next - s) < 1e-5;
         s = next;
         if (settled) break;
     }
