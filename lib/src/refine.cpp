@@ -28,6 +28,7 @@ constexpr double kLeastThreshold = 0.004;  // map scale: one step of an 8-bit ma
 constexpr double kLeastDeviation = 1e-5;    // map scale: rounding of a 16-bit map
 constexpr double kThresholdInDeviations = 4.0;
 constexpr double kFirstDamping = 1e-3;
+constexpr double kRoughDamping = 1e-2;       // of a map that is not clean, fitted before: less is refused more often
 constexpr double kSlower = 0.3;              // damping below it hardly shortens a step
 constexpr double kSimplerMayCost = 1.05;     // of the misfit
 constexpr double kStraighterMayDiffer[] = {0.1, 0.03, 0.01};  // of a profile's relief, root mean square
@@ -46,6 +47,7 @@ constexpr double kTorn = 0.1;                // map scale
 // A texel's model is as exact as this share of what it is off by, not more: doubt about a part of it is then cheap.
 constexpr double kPrecision = 0.5;
 constexpr double kClean = 2e-3;  // map scale: a map that is farther off its model does not tell it from the exact one
+constexpr double kSettled = 1e-3;  // as Model::settled, of a clean map
 // Steps are so many that they look at this number of texels, but some at least: large maps tell in fewer.
 constexpr std::size_t kMostLooks = 800000;
 constexpr int kFewestSteps = 3;
@@ -88,7 +90,7 @@ struct Model {
     int steps = 0;           // most of them
     double settled = 0.0;    // the iteration ends when a step gains less than this share of the cost
 };
-constexpr Model kRough{true, kWhole, 0.0, 12, 1e-3};
+constexpr Model kRough{true, kWhole, 0.0, 12, 3e-3};
 constexpr Model kClose{false, 2, 0.05, 6, 2e-3};
 // Off by not more than a share of what the map is off by.
 Model exact_model(double deviation) { return {false, kFineDivisions, kPrecision * deviation, 12, 1e-3}; }
@@ -153,6 +155,9 @@ class Refinement {
     Result<State> run(const Pattern& start, const Model& model, RefineReport& report) const {
         Result<State> best = begin(start, model);
         if (!best) return best;
+        const bool clean = deviation_of(best->prediction.residuals) <= kClean;
+        const double settled = clean ? std::min(kSettled, model.settled) : model.settled;
+        if (!clean && report.iterations > 0) std::fill(best->damping.begin(), best->damping.end(), kRoughDamping);
         report.unknowns = best->parameters.count();
         const std::size_t looks = std::max<std::size_t>(1, best->prediction.residuals.size());
         const int fewest = report.iterations > 0 ? kFewestLater : kFewestSteps;
@@ -163,7 +168,7 @@ class Refinement {
             const double gain = advance(*best, model, refused > 0, affordable > 2 * kFewestSteps ? 2 : 1);
             ++report.iterations;
             refused = gain > 0.0 ? 0 : refused + 1;
-            if (gain > 0.0 && gain < model.settled) break;
+            if (gain > 0.0 && gain < settled) break;
         }
         return best;
     }
