@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include <burin/rasterize.hpp>
 #include <burin/refine.hpp>
@@ -246,19 +247,34 @@ double cross_distance(const Pattern& a, const Pattern& b) {
     return worst;
 }
 
-// The wall of a step that closed in one iteration would not open again.
-TEST(RefineParameters, WallsNarrowByDegrees) {
-    Pattern pattern;
-    pattern.size = {64.0, 64.0};
-    pattern.depth = pattern.base_offset = 1.0;
-    pattern.outer_level = 0.8;
-    pattern.profiles.push_back({{{-1.0, 0.0}, {1.0, -0.35}}, {}});
+// A closed step path of straight lines: a regular polygon.
+Path ring(Vec2 centre, int corners, double radius, double level, std::uint32_t profile) {
     Path path;
     path.closed = true;
-    path.level = 0.8;
-    const Vec2 corners[] = {{20, 20}, {40, 20}, {40, 40}, {20, 40}};
-    for (int i = 0; i < 4; ++i) path.elements.push_back({ElementKind::line, corners[i], {}, corners[(i + 1) % 4]});
-    pattern.paths.push_back(path);
+    path.level = level;
+    path.profile = profile;
+    const auto corner = [&](int k) {
+        const double angle = 2.0 * std::numbers::pi * (k % corners + 0.5) / corners;
+        return centre + Vec2{std::cos(angle), std::sin(angle)} * radius;
+    };
+    for (int k = 0; k < corners; ++k) path.elements.push_back({ElementKind::line, corner(k), {}, corner(k + 1)});
+    return path;
+}
+
+// Without a path yet; texels and map scale.
+Pattern ground_of_rings(double side, double level) {
+    Pattern pattern;
+    pattern.size = {side, side};
+    pattern.depth = pattern.base_offset = 1.0;
+    pattern.outer_level = level;
+    return pattern;
+}
+
+// The wall of a step that closed in one iteration would not open again.
+TEST(RefineParameters, WallsNarrowByDegrees) {
+    Pattern pattern = ground_of_rings(64.0, 0.8);
+    pattern.profiles.push_back({{{-1.0, 0.0}, {1.0, -0.35}}, {}});
+    pattern.paths = {ring({30.0, 30.0}, 4, 10.0 * std::numbers::sqrt2, 0.8, 0)};
     refinement::Parameters parameters(pattern, RefineOptions{});
     const std::vector<ProfilePoint>& points = pattern.profiles[0].points;
     const double width = points.back().b - points.front().b;
@@ -314,26 +330,9 @@ TEST(Refine, KeepsStructure) {
     EXPECT_EQ(groove[0].h, 0.0);
 }
 
-// A closed step path of straight lines: a regular polygon.
-Path ring(Vec2 centre, int corners, double radius, double level, std::uint32_t profile) {
-    Path path;
-    path.closed = true;
-    path.level = level;
-    path.profile = profile;
-    const auto corner = [&](int k) {
-        const double angle = 2.0 * 3.14159265358979323846 * (k % corners + 0.5) / corners;
-        return centre + Vec2{std::cos(angle), std::sin(angle)} * radius;
-    };
-    for (int k = 0; k < corners; ++k) path.elements.push_back({ElementKind::line, corner(k), {}, corner(k + 1)});
-    return path;
-}
-
 // Two rims that the map shows as one would cross when they are fitted; a square elsewhere is fitted all the same.
 TEST(Refine, StepsThatWouldCrossKeepNothingElseFromMoving) {
-    Pattern drawn;
-    drawn.size = {128.0, 128.0};
-    drawn.depth = drawn.base_offset = 1.0;
-    drawn.outer_level = 0.4;
+    Pattern drawn = ground_of_rings(128.0, 0.4);
     for (const double rise : {0.4, 0.2}) drawn.profiles.push_back({{{-0.5, 0.0}, {0.5, -rise}}, {}});
     const Vec2 plateau{90.0, 84.0};
     Pattern start = drawn;
