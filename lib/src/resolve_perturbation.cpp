@@ -63,10 +63,10 @@ ScaleFunction function_of(const Perturbation& p, double lap) {
 }
 
 std::uint32_t number_of(Work& work, const ScaleFunction& f) {
-    const auto at = std::find(work.functions.begin(), work.functions.end(), f);
-    if (at == work.functions.end()) work.functions.push_back(f);
-    return static_cast<std::uint32_t>(at == work.functions.end() ? work.functions.size() - 1
-                                                                  : static_cast<std::size_t>(at - work.functions.begin()));
+    const auto known = static_cast<std::size_t>(std::find(work.functions.begin(), work.functions.end(), f) -
+                                                work.functions.begin());
+    if (known == work.functions.size()) work.functions.push_back(f);
+    return static_cast<std::uint32_t>(known);
 }
 
 Status check_scales(const Element& e, const FactorRange& factors, bool step, const std::string& where) {

@@ -177,6 +177,11 @@ BurinPiece burin_formula(BurinElement e, BurinPiece piece, int part) {
     bool at_end = part == BURIN_PART_END || part == BURIN_PART_END_FLANK;
     piece.width = max(at_end ? e.scales.y : e.scales.x, 1.0e-3f);
     piece.height = max(at_end ? e.scales.w : e.scales.z, 1.0e-3f);
+    if (e.function >= 0) {
+        vec2 scale = burin_scales(e, at_end ? 1.0f : 0.0f).scale;
+        piece.width = max(scale.x, 1.0e-3f);
+        piece.height = max(scale.y, 1.0e-3f);
+    }
     if (part == BURIN_PART_MAIN) {
         piece.kind = e.curved ? BURIN_PIECE_CURVE : BURIN_PIECE_LINEAR;
         piece.anchor = e.p0;
@@ -205,6 +210,7 @@ BurinSection burin_section(BurinElement e, BurinStyle style, BurinPiece piece, B
     s.gradient = piece.gradient;
     float b = dot(piece.gradient, p - piece.anchor);
     float along = 0.0f;
+    float speed = e.extent;  // metres of the plane along the path per parameter
     if (piece.kind == BURIN_PIECE_RADIAL) {
         b = piece.side * length(p - piece.anchor);
         s.gradient = burin_direction(p - piece.anchor, e.t0) * piece.side;
@@ -214,16 +220,19 @@ BurinSection burin_section(BurinElement e, BurinStyle style, BurinPiece piece, B
         s.gradient = foot.normal;
         s.tangent = vec2(foot.normal.y, -foot.normal.x);
         along = foot.parameter;
+        vec2 edge = mix(e.p1 - e.p0, e.p2 - e.p1, along) * 2.0f;
+        vec2 bend = (e.p0 - 2.0f * e.p1 + e.p2) * 2.0f;
+        // Beside the path the parameter runs slower or faster, as on arcs around its centre of curvature.
+        speed = length(edge) - foot.offset * dot(bend, foot.normal) / max(length(edge), 1.0e-12f);
     } else if (!piece.fixed_scale) {
         along = dot(p - e.p0, e.t0) / max(e.extent, 1.0e-9f);
     }
     if (!piece.fixed_scale) {
         float clamped = clamp(along, 0.0f, 1.0f);
-        s.width = max(mix(e.scales.x, e.scales.y, clamped), 1.0e-3f);
-        s.height = max(mix(e.scales.z, e.scales.w, clamped), 1.0e-3f);
-        if (along == clamped) {
-            s.scale_rates = vec2(e.scales.y - e.scales.x, e.scales.w - e.scales.z) * (1.0f / max(e.extent, 1.0e-9f));
-        }
+        BurinScales scales = burin_scales(e, clamped);
+        s.width = max(scales.scale.x, 1.0e-3f);
+        s.height = max(scales.scale.y, 1.0e-3f);
+        if (along == clamped) s.scale_rates = scales.rate * (1.0f / max(speed, 1.0e-9f));
     }
     s.q = vec2(b / (s.width * style.reach), (style.level - t) / (s.height * burin_map.depth));
     return s;

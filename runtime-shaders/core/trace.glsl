@@ -56,7 +56,11 @@ int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, Buri
     if (!piece.fixed_scale) bend = bend + 1.0f / max(e.extent, 1.0e-6f);
     // Rise of the arc over its chord, in reaches.
     float rise = way * way * bend / (8.0f * style.reach);
-    return clamp(int(ceil(sqrt(rise * 12.0f))), 1, BURIN_MAX_SEGMENTS);
+    int count = clamp(int(ceil(sqrt(rise * 12.0f))), 1, BURIN_MAX_SEGMENTS);
+    if (piece.fixed_scale || e.function < 0) return count;
+    float run = e.curved ? way : abs(dot(ray.slope, e.t0)) * (piece.hi - piece.lo);
+    float turns = e.argument.y * min(run / max(e.extent, 1.0e-6f), 1.0f);
+    return min(count + int(ceil(turns * sqrt(burin_waviness(e.function) * 2.0f))), BURIN_MAX_WAVE_SEGMENTS);
 }
 
 void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinMark mark,
@@ -76,7 +80,7 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
     vec2 range = vec2(piece.lo, piece.lo);
     vec2 qa = vec2(0.0f, 0.0f);
     vec2 qb = vec2(0.0f, 0.0f);
-    for (int i = 0; i <= BURIN_MAX_SEGMENTS + 1; ++i) {
+    for (int i = 0; i <= BURIN_MAX_WAVE_SEGMENTS + 1; ++i) {
         if (i > count) break;
         float to = i == count ? piece.hi : (i == above ? part : mix(part, piece.hi, float(i - above) / float(count - above)));
         if (i < above) to = mix(piece.lo, part, float(i) / float(above));

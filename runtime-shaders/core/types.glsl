@@ -17,6 +17,7 @@ struct BurinMap {
     int first_profile;
     int first_material;
     int first_list;
+    int first_function;
 };
 
 struct BurinRay {
@@ -44,6 +45,9 @@ struct BurinElement {
     float extent;  // length of the chord
     bool curved;
     bool scaled;        // the scales change along the element
+    int function;       // texel of the function that multiplies them, or -1
+    int turns;          // whole part of its argument at the start
+    vec2 argument;      // the rest of it, and how much it grows to the end
     uint kind0;         // end-kinds, layout.h
     uint kind2;
     float clip0;  // clip angles, radians
@@ -111,6 +115,7 @@ struct BurinHit {
 #define BURIN_MAX_GROUND_CHANGES 64
 #define BURIN_MAX_PASSES 32
 #define BURIN_MAX_SEGMENTS 6
+#define BURIN_MAX_WAVE_SEGMENTS 32  // where a function changes the scales
 // Part of the depth under which two drops count as one: above float noise, below the texels' own steps.
 #define BURIN_SAME_DROP 1.0e-6f
 // Part of the depth under which two levels are one code: less than one step of UNORM16.

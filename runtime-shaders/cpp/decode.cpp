@@ -31,6 +31,7 @@ class Core {
     }
 
 #include "core/fetch.glsl"
+#include "core/perturbation.glsl"
 #include "core/curve.glsl"
 #include "core/domain.glsl"
 #include "core/section.glsl"
@@ -52,6 +53,7 @@ Core make_core(const PackedTextures& textures, const PathDetail& detail) {
     core.burin_map.first_profile = int(textures.sections.profiles_begin());
     core.burin_map.first_material = int(textures.sections.materials_begin());
     core.burin_map.first_list = int(textures.sections.lists_begin());
+    core.burin_map.first_function = int(textures.sections.functions_begin());
     return core;
 }
 

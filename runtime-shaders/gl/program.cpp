@@ -80,7 +80,7 @@ std::string fragment_text(Stage stage) {
     text += shader_text::types;
     text += shader_text::bindings;
     for (const char* part :
-         {shader_text::fetch, shader_text::curve, shader_text::domain, shader_text::section,
+         {shader_text::fetch, shader_text::perturbation, shader_text::curve, shader_text::domain, shader_text::section,
           shader_text::ground, shader_text::trace, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
         text += part;
     text += stage == Stage::rays ? shader_text::rays_frag
@@ -157,6 +157,7 @@ void DetailTextures::bind(const Program& program) const {
     program.set("burin_map.first_profile", int(sections_.profiles_begin()));
     program.set("burin_map.first_material", int(sections_.materials_begin()));
     program.set("burin_map.first_list", int(sections_.lists_begin()));
+    program.set("burin_map.first_function", int(sections_.functions_begin()));
 }
 
 Result<std::unique_ptr<FloatTarget>> FloatTarget::create(const Functions& gl, int width, int height,
