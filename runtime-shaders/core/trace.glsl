@@ -60,7 +60,7 @@ int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, Buri
     if (piece.fixed_scale || e.function < 0) return count;
     float run = e.curved ? way : abs(dot(ray.slope, e.t0)) * (piece.hi - piece.lo);
     float turns = e.argument.y * min(run / max(e.extent, 1.0e-6f), 1.0f);
-    return min(count + int(ceil(turns * sqrt(burin_waviness(e.function) * 2.0f))), BURIN_MAX_WAVE_SEGMENTS);
+    return min(count + int(ceil(turns * sqrt(burin_waviness(e.function) * 8.0f))), BURIN_MAX_WAVE_SEGMENTS);
 }
 
 void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinMark mark,
