@@ -177,7 +177,7 @@ BurinPiece burin_formula(BurinElement e, BurinPiece piece, int part) {
     bool at_end = part == BURIN_PART_END || part == BURIN_PART_END_FLANK;
     piece.width = max(at_end ? e.scales.y : e.scales.x, 1.0e-3f);
     piece.height = max(at_end ? e.scales.w : e.scales.z, 1.0e-3f);
-    if (e.function >= 0) {
+    if (e.waved) {
         vec2 scale = burin_scales(e, at_end ? 1.0f : 0.0f).scale;
         piece.width = max(scale.x, 1.0e-3f);
         piece.height = max(scale.y, 1.0e-3f);

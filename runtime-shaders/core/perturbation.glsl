@@ -5,18 +5,19 @@ struct BurinFactors {
     vec2 rate;    // of both, per argument
 };
 
-// Both values of a lattice point of octave `octave`, in [-1, 1].
-vec2 burin_lattice(uvec4 head, uint octave, int point) {
-    uint i = uint(point);
-    if (head.w != 0u) i = i % (head.w << octave);
-    uint bits = i + head.z * BURIN_NOISE_MIX_SEED + octave * BURIN_NOISE_MIX_OCTAVE;
+// Values of a lattice point of octave `octave` for width and for height, in [-1, 1]. Arguments of noise that repeats lie
+// within one period.
+vec2 burin_lattice(uvec4 head, uint octave, uint point) {
+    uint period = head.w << octave;
+    uint bits = period != 0u && point >= period ? point - period : point;
+    bits = bits + head.z * BURIN_NOISE_MIX_SEED + octave * BURIN_NOISE_MIX_OCTAVE;
     bits = (bits ^ (bits >> 16)) * BURIN_NOISE_MIX_A;
     bits = (bits ^ (bits >> 15)) * BURIN_NOISE_MIX_B;
     bits = bits ^ (bits >> 16);
     return vec2(float(bits & 0xffffu), float(bits >> 16)) * (1.0f / 32767.5f) - vec2(1.0f, 1.0f);
 }
 
-// Noise and its rate at turns + a, for width and height. What counts whole lattice points stays in integers.
+// Noise and its rate at turns + a. What counts whole lattice points stays in integers.
 BurinFactors burin_noise(uvec4 head, int turns, float a) {
     BurinFactors sum;
     sum.factor = vec2(0.0f, 0.0f);
@@ -29,9 +30,9 @@ BurinFactors burin_noise(uvec4 head, int turns, float a) {
         float y = a * frequency + float(BURIN_NOISE_SHIFT) * float(k);
         float cell = floor(y);
         float t = y - cell;
-        int point = int(cell) + (turns << k);
+        uint point = uint(int(cell) + (turns << k));
         vec2 from = burin_lattice(head, k, point);
-        vec2 rise = burin_lattice(head, k, point + 1) - from;
+        vec2 rise = burin_lattice(head, k, point + 1u) - from;
         sum.factor += (from + rise * (t * t * (3.0f - 2.0f * t))) * (1.0f / frequency);
         sum.rate += rise * (6.0f * t * (1.0f - t));
         whole += 1.0f / frequency;
@@ -42,50 +43,54 @@ BurinFactors burin_noise(uvec4 head, int turns, float a) {
     return sum;
 }
 
-// Factors of the function at texel `function`, at the argument turns + a.
-BurinFactors burin_factors(int function, int turns, float a) {
-    uvec4 head = fetch_data(function);
-    uint kind = head.x & 3u;
+vec2 burin_amplitudes(uvec4 head) {
+    return vec2(burin_snorm16(head.y & 0xffffu), burin_snorm16(head.y >> 16));
+}
+
+// Factors of the element's function at the argument turns + a.
+BurinFactors burin_factors(BurinElement e, float a) {
+    uint kind = e.function.x & 3u;
     BurinFactors found;
-    if (kind == BURIN_FUNCTION_POLYNOMIAL) {
-        uvec4 w = fetch_data(function + 1);
-        uvec4 h = fetch_data(function + 2);
-        vec2 c0 = vec2(uintBitsToFloat(w.x), uintBitsToFloat(h.x));
-        vec2 c1 = vec2(uintBitsToFloat(w.y), uintBitsToFloat(h.y));
-        vec2 c2 = vec2(uintBitsToFloat(w.z), uintBitsToFloat(h.z));
-        vec2 c3 = vec2(uintBitsToFloat(w.w), uintBitsToFloat(h.w));
-        float u = float(turns) + a;
-        found.factor = c0 + u * (c1 + u * (c2 + u * c3));
-        found.rate = c1 + u * (2.0f * c2 + u * 3.0f * c3);
-        return found;
-    }
-    vec2 amplitude = vec2(burin_snorm16(head.y & 0xffffu), burin_snorm16(head.y >> 16));
-    if (kind == BURIN_FUNCTION_NOISE) {
-        found = burin_noise(head, turns, a);
-    } else {
+    found.factor = vec2(0.0f, 0.0f);
+    found.rate = vec2(0.0f, 0.0f);
+#if (BURIN_FUNCTION_KINDS & 1) != 0
+    if (kind == BURIN_FUNCTION_SINE) {
         float angle = 6.28318531f * (a - floor(a));
-        found.factor = vec2(sin(angle), sin(angle));
-        found.rate = vec2(cos(angle), cos(angle)) * 6.28318531f;
+        found.factor = vec2(1.0f, 1.0f) * sin(angle);
+        found.rate = vec2(6.28318531f, 6.28318531f) * cos(angle);
     }
+#endif
+#if (BURIN_FUNCTION_KINDS & 4) != 0
+    if (kind == BURIN_FUNCTION_NOISE) found = burin_noise(e.function, e.turns, a);
+#endif
+    vec2 amplitude = burin_amplitudes(e.function);
     found.factor = vec2(1.0f, 1.0f) + amplitude * found.factor;
     found.rate = amplitude * found.rate;
+#if (BURIN_FUNCTION_KINDS & 2) != 0
+    if (kind == BURIN_FUNCTION_POLYNOMIAL) {
+        vec4 w = e.width_terms;
+        vec4 h = e.height_terms;
+        float u = float(e.turns) + a;
+        found.factor = vec2(w.x + u * (w.y + u * (w.z + u * w.w)), h.x + u * (h.y + u * (h.z + u * h.w)));
+        found.rate = vec2(w.y + u * (2.0f * w.z + u * 3.0f * w.w), h.y + u * (2.0f * h.z + u * 3.0f * h.w));
+    }
+#endif
     return found;
 }
 
-// How strongly the factors of a function bend: bounds their second derivative by the argument.
-float burin_waviness(int function) {
-    uvec4 head = fetch_data(function);
-    uint kind = head.x & 3u;
+// How strongly the factors of the element's function bend: bounds their second derivative by the argument.
+float burin_waviness(BurinElement e) {
+    uint kind = e.function.x & 3u;
     if (kind == BURIN_FUNCTION_POLYNOMIAL) {
-        uvec4 w = fetch_data(function + 1);
-        uvec4 h = fetch_data(function + 2);
-        return max(2.0f * abs(uintBitsToFloat(w.z)) + 6.0f * abs(uintBitsToFloat(w.w)),
-                   2.0f * abs(uintBitsToFloat(h.z)) + 6.0f * abs(uintBitsToFloat(h.w)));
+        vec4 w = abs(e.width_terms);
+        vec4 h = abs(e.height_terms);
+        return max(2.0f * w.z + 6.0f * w.w, 2.0f * h.z + 6.0f * h.w);
     }
-    float amplitude = max(abs(burin_snorm16(head.y & 0xffffu)), abs(burin_snorm16(head.y >> 16)));
+    vec2 amplitudes = abs(burin_amplitudes(e.function));
+    float amplitude = max(amplitudes.x, amplitudes.y);
     if (kind == BURIN_FUNCTION_SINE) return 39.5f * amplitude;
     // Each octave bends twice as much as the one before.
-    float finest = float(1u << ((head.x >> 2) & 15u));
+    float finest = float(1u << ((e.function.x >> 2) & 15u));
     return 12.0f * amplitude * (finest - 1.0f) / (2.0f - 2.0f / finest);
 }
 
@@ -112,9 +117,9 @@ BurinScales burin_scales(BurinElement e, float s) {
     BurinScales found;
     found.scale = mix(vec2(e.scales.x, e.scales.z), vec2(e.scales.y, e.scales.w), s);
     found.rate = vec2(e.scales.y - e.scales.x, e.scales.w - e.scales.z);
-    if (e.function >= 0) {
+    if (e.waved) {
         vec2 share = burin_arc_share(e, s);
-        BurinFactors f = burin_factors(e.function, e.turns, e.argument.x + e.argument.y * share.x);
+        BurinFactors f = burin_factors(e, e.argument.x + e.argument.y * share.x);
         found.rate = found.rate * f.factor + found.scale * f.rate * (e.argument.y * share.y);
         found.scale = found.scale * f.factor;
     }
@@ -125,7 +130,7 @@ BurinScales burin_scales(BurinElement e, float s) {
 // runs on by what that can amount to at the rim, or a sheet of solid would stand between the two.
 float burin_clip_slack(BurinElement e, BurinStyle style) {
     float width = max(e.scales.x, e.scales.y);
-    if (e.function >= 0) width = max(burin_scales(e, 0.0f).scale.x, burin_scales(e, 1.0f).scale.x);
+    if (e.waved) width = max(burin_scales(e, 0.0f).scale.x, burin_scales(e, 1.0f).scale.x);
     return BURIN_CLIP_ROUNDING * style.reach * width;
 }
 

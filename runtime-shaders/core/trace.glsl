@@ -57,10 +57,10 @@ int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, Buri
     // Rise of the arc over its chord, in reaches.
     float rise = way * way * bend / (8.0f * style.reach);
     int count = clamp(int(ceil(sqrt(rise * 12.0f))), 1, BURIN_MAX_SEGMENTS);
-    if (piece.fixed_scale || e.function < 0) return count;
+    if (piece.fixed_scale || !e.waved) return count;
     float run = e.curved ? way : abs(dot(ray.slope, e.t0)) * (piece.hi - piece.lo);
     float turns = e.argument.y * min(run / max(e.extent, 1.0e-6f), 1.0f);
-    return min(count + int(ceil(turns * sqrt(burin_waviness(e.function) * 8.0f))), BURIN_MAX_WAVE_SEGMENTS);
+    return min(count + int(ceil(turns * sqrt(burin_waviness(e) * 8.0f))), BURIN_MAX_WAVE_SEGMENTS);
 }
 
 void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinMark mark,

@@ -7,6 +7,12 @@
 // THE SECTION. Where an element acts, the ray is a curve q(t) = (b' / reach, height / depth) in the plane of the
 // profile, both divided by the scales at the foot. Profile points live in the same plane, in [-1, 1].
 
+// Which functions along paths the program can follow, as a sum: 1 sine, 2 polynomial, 4 noise. Drivers that run both sides
+// of a branch pay for each of them on every ray, so that a host should define what its textures hold (README.md).
+#ifndef BURIN_FUNCTION_KINDS
+#define BURIN_FUNCTION_KINDS 7
+#endif
+
 struct BurinMap {
     vec2 size;          // metres per uv unit
     float depth;        // metres
@@ -45,7 +51,10 @@ struct BurinElement {
     float extent;  // length of the chord
     bool curved;
     bool scaled;        // the scales change along the element
-    int function;       // texel of the function that multiplies them, or -1
+    bool waved;         // a function multiplies them
+    uvec4 function;     // its head texel
+    vec4 width_terms;   // and, of a polynomial, its coefficients
+    vec4 height_terms;
     int turns;          // whole part of its argument at the start
     vec2 argument;      // the rest of it, and how much it grows to the end
     uint kind0;         // end-kinds, layout.h
@@ -115,7 +124,11 @@ struct BurinHit {
 #define BURIN_MAX_GROUND_CHANGES 64
 #define BURIN_MAX_PASSES 32
 #define BURIN_MAX_SEGMENTS 6
+#if BURIN_FUNCTION_KINDS != 0
 #define BURIN_MAX_WAVE_SEGMENTS 32  // where a function changes the scales
+#else
+#define BURIN_MAX_WAVE_SEGMENTS BURIN_MAX_SEGMENTS
+#endif
 // Part of the depth under which two drops count as one: above float noise, below the texels' own steps.
 #define BURIN_SAME_DROP 1.0e-6f
 // Part of the depth under which two levels are one code: less than one step of UNORM16.

@@ -74,8 +74,19 @@ GLuint make_residual(const Functions& gl, const RgbaImage& picture, bool repeat)
 
 }  // namespace
 
-std::string fragment_text(Stage stage) {
+int function_kinds(const PackedTextures& textures) {
+    int kinds = 0;
+    for (std::uint32_t at = 0; at < textures.sections.function_texels;) {
+        const Texel head = data_texel(textures, textures.sections.functions_begin() + at);
+        kinds |= 1 << (head[0] & 3u);
+        at += function_texel_count(head);
+    }
+    return kinds & 7;
+}
+
+std::string fragment_text(Stage stage, int function_kinds) {
     std::string text = kVersion;
+    text += "#define BURIN_FUNCTION_KINDS " + std::to_string(function_kinds) + "\n";
     text += shader_text::layout;
     text += shader_text::types;
     text += shader_text::bindings;
@@ -88,13 +99,13 @@ std::string fragment_text(Stage stage) {
     return text;
 }
 
-Result<Program> Program::build(const Functions& gl, Stage stage) {
+Result<Program> Program::build(const Functions& gl, Stage stage, int function_kinds) {
     const std::string vertex_text =
         std::string(kVersion) +
         (stage == Stage::surface ? shader_text::surface_vert : shader_text::screen_vert);
     auto vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
     if (!vertex) return vertex.error();
-    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage));
+    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage, function_kinds));
     if (!fragment) {
         gl.DeleteShader(*vertex);
         return fragment.error();

@@ -16,13 +16,16 @@ namespace burin::gl {
 // Which fragment shader of this folder a program ends in.
 enum class Stage { rays, top, surface };
 
-// Text of a fragment shader as the driver gets it: version, layout.h, core, bindings, main.
-std::string fragment_text(Stage stage);
+// Kinds of functions along paths that the textures hold, for BURIN_FUNCTION_KINDS of core/types.glsl.
+int function_kinds(const PackedTextures& textures);
+
+// Text of a fragment shader as the driver gets it: version, kinds of functions, layout.h, core, bindings, main.
+std::string fragment_text(Stage stage, int function_kinds);
 
 class Program {
   public:
-    // Fails with unavailable, carrying the driver's log.
-    static Result<Program> build(const Functions& gl, Stage stage);
+    // For textures with no other kinds of functions. Fails with unavailable, carrying the driver's log.
+    static Result<Program> build(const Functions& gl, Stage stage, int function_kinds);
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
     ~Program();

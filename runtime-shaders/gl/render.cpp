@@ -414,7 +414,10 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     auto context = gl::open_context(options.backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
-    auto program = gl::Program::build(gl, gl::Stage::surface);
+    int kinds = 0;
+    for (const auto& material : asset.materials)
+        if (material.has_detail) kinds |= gl::function_kinds(material.textures);
+    auto program = gl::Program::build(gl, gl::Stage::surface, kinds);
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
     if (!target) return target.error();
