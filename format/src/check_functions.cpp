@@ -77,19 +77,21 @@ void check_functions(const PackedTextures& textures, DecodedData& data, Reporter
 void check_function_of(const PackedTextures& textures, const DecodedData& data, const ElementCode& e,
                        const std::string& place, Reporter& reporter) {
     if (!e.has_texel_c) return;
-    if (e.argument1 < e.argument0) {
-        reporter.report(4013,
-                        "arguments are " + number_text(decode_argument(e.argument0)) + " at the start and " +
-                            number_text(decode_argument(e.argument1)) + " at the end",
-                        place);
-    }
+    const auto arguments = [&e] {
+        return "arguments are " + number_text(decode_argument(e.argument0)) + " at the start and " +
+               number_text(decode_argument(e.argument1)) + " at the end";
+    };
+    if (e.argument1 < e.argument0) reporter.report(4013, arguments(), place);
     if (e.function >= data.is_function.size() || data.is_function[e.function] == 0) {
         reporter.report(4012, "function " + text(e.function) + " does not begin in the section of " +
                                   std::to_string(data.is_function.size()) + " texels", place);
         return;
     }
+    const FunctionCode function = function_at(textures, e.function);
+    if (function.period > 0 && decode_argument(e.argument1) > function.period)
+        reporter.report(4013, arguments() + ", beyond the period of " + text(function.period), place);
     const StyleCode* style = data.style_of(e);
-    if (style != nullptr && style->step && !leaves_height(function_at(textures, e.function)))
+    if (style != nullptr && style->step && !leaves_height(function))
         reporter.report(4014, "the function of a step changes heights; it may change widths alone", place);
 }
 

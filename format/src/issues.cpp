@@ -70,7 +70,7 @@ constexpr IssueKind kKinds[] = {
     {4010, kError, "height scale varies along a step"},
     {4011, kError, "right level is not where the step's profile ends"},
     {4012, kError, "function index is not a function"},
-    {4013, kError, "argument falls along an element"},
+    {4013, kError, "argument falls along an element or leaves the period"},
     {4014, kError, "function changes the height of a step"},
     {4020, kError, "profile exceeds the profile section"},
     {4021, kError, "number of profile points is out of range"},
