@@ -148,6 +148,22 @@ std::string clones(const Pattern& pattern, std::size_t index) {
     return all;
 }
 
+// Kind and numbers of the perturbation, in the order of the struct; format/svg.md.
+std::string perturbation_text(const Pattern& pattern, const Path& path) {
+    if (path.perturbation == kNoPerturbation) return "";
+    const Perturbation& p = pattern.perturbations[path.perturbation];
+    std::string text;
+    if (p.kind == PerturbationKind::polynomial) {
+        text = "polynomial";
+        for (const double c : p.width_polynomial) text += " " + exact(c);
+        for (const double c : p.height_polynomial) text += " " + exact(c);
+        return text;
+    }
+    const bool sine = p.kind == PerturbationKind::sine;
+    text = (sine ? "sine " : "noise ") + exact(p.width) + " " + exact(p.height) + " " + exact(p.wavelength) + " ";
+    return text + (sine ? exact(p.phase) : std::to_string(p.seed) + " " + std::to_string(p.octaves));
+}
+
 std::string path_element(const Pattern& pattern, std::size_t index) {
     const Path& path = pattern.paths[index];
     return "    <path" + attribute("id", "path-" + std::to_string(index)) +
@@ -157,6 +173,7 @@ std::string path_element(const Pattern& pattern, std::size_t index) {
            unusual("start-cap", name_of(path.start_cap), "hip") + unusual("end-cap", name_of(path.end_cap), "hip") +
            unusual("widths", scales(path, &Element::width0, &Element::width1), "") +
            unusual("heights", scales(path, &Element::height0, &Element::height1), "") +
+           unusual("perturbation", perturbation_text(pattern, path), "") +
            stroke(pattern, path) + attribute("d", path_data(path.elements)) + "/>\n";
 }
 

@@ -69,7 +69,10 @@ TEST(Specification, LimitsAreThoseOfTheLayout) {
                   {"BURIN_MAX_STYLES", BURIN_MAX_STYLES},
                   {"BURIN_MAX_PROFILE_TEXELS", BURIN_MAX_PROFILE_TEXELS},
                   {"BURIN_MAX_MATERIALS", BURIN_MAX_MATERIALS},
-                  {"BURIN_MAX_LIST_TEXELS", BURIN_MAX_LIST_TEXELS}};
+                  {"BURIN_MAX_LIST_TEXELS", BURIN_MAX_LIST_TEXELS},
+                  {"BURIN_MAX_FUNCTION_TEXELS", BURIN_MAX_FUNCTION_TEXELS},
+                  {"BURIN_MAX_OCTAVES", BURIN_MAX_OCTAVES},
+                  {"BURIN_MAX_NOISE_PERIOD", BURIN_MAX_NOISE_PERIOD}};
     for (const auto& limit : limits) {
         const std::string row = "| " + std::to_string(limit.value) + " | `" + limit.name + "` |";
         EXPECT_NE(text.find(row), std::string::npos) << row;

@@ -224,7 +224,7 @@ void add_data_cases(std::map<int, Bytes>& cases) {
     cases[4035] = broken_profile(7, 1, 0);
     cases[4040] = broken_data(kMaterials, 1, 1u << 16);
     cases[4041] = broken_data(kMaterials + 1, 3, 1);
-    cases[4050] = broken_textures([](PackedTextures& t) { test::set_reference(t, 8, 9); });
+    cases[4050] = broken_textures([](PackedTextures& t) { test::set_reference(t, 8, 10); });
     cases[4051] = broken_textures([](PackedTextures& t) {
         test::set_reference(t, 4, 3);
         test::set_reference(t, 5, 0);
