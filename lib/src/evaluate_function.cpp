@@ -59,23 +59,28 @@ Wave factor_at(const ScaleFunction& f, double a, bool heights) {
 
 }  // namespace
 
-double argument_on(const PreparedElement& e, double u) {
-    if (e.kind == ElementKind::line) return e.argument0 + e.argument_rise * u;
-    const double *v = e.speed, whole = (v[0] + 4.0 * v[1] + v[2]) / 6.0;
-    const double slope = 4.0 * v[1] - 3.0 * v[0] - v[2], bend = 2.0 * (v[0] - 2.0 * v[1] + v[2]);
-    return e.argument0 + e.argument_rise * u * (v[0] + u * (slope / 2.0 + u * bend / 3.0)) / whole;
-}
-
-double argument_rate_on(const PreparedElement& e, double u) {
-    if (e.kind == ElementKind::line) return e.argument_rise;
-    const double *v = e.speed, whole = (v[0] + 4.0 * v[1] + v[2]) / 6.0;
-    const double slope = 4.0 * v[1] - 3.0 * v[0] - v[2], bend = 2.0 * (v[0] - 2.0 * v[1] + v[2]);
-    return e.argument_rise * (v[0] + u * (slope + u * bend)) / whole;
+Run run_to(const PreparedElement& e, double u) {
+    constexpr double kWeight[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    const double off = std::sqrt(0.6), node[3] = {0.5 - 0.5 * off, 0.5, 0.5 + 0.5 * off};
+    Run run;
+    for (int i = 0; i < 3; ++i) {
+        const Vec2 d = e.edge + e.bend * (u * node[i]);
+        const double speed = length(d);
+        run.length += kWeight[i] * u * speed;
+        run.rate += kWeight[i] * (speed + (speed > 0.0 ? u * node[i] * dot(d, e.bend) / speed : 0.0));
+    }
+    return run;
 }
 
 Factors factors_on(const PreparedElement& e, double u) {
     if (e.function == nullptr) return {};
-    const double a = argument_on(e, u), rate = argument_rate_on(e, u);
+    double share = u, rate = 1.0;
+    if (e.kind == ElementKind::quadratic && e.run > 0.0) {
+        const Run run = run_to(e, u);
+        share = run.length / e.run, rate = run.rate / e.run;
+    }
+    const double a = e.argument0 + e.argument_rise * share;
+    rate *= e.argument_rise;
     const Wave width = factor_at(*e.function, a, false), height = factor_at(*e.function, a, true);
     return {width.value, height.value, width.rate * rate, height.rate * rate};
 }

@@ -82,9 +82,7 @@ void prepare_function(const ResolvedElement& resolved, const std::vector<ScaleFu
     e.function = &functions[resolved.function];
     e.argument0 = source.argument0;
     e.argument_rise = source.argument1 - source.argument0;
-    e.speed[0] = 2.0 * length(e.edge);
-    e.speed[1] = 2.0 * length(e.edge + e.bend * 0.5);
-    e.speed[2] = 2.0 * length(e.edge + e.bend);
+    e.run = truth::run_to(e, 1.0).length;
     e.scaled = true;
     truth::bound_factors(e);
 }

@@ -41,7 +41,7 @@ struct PreparedElement {
     // Function along the path, if any, and what its argument is made of.
     const ScaleFunction* function = nullptr;
     double argument0 = 0, argument_rise = 0;
-    double speed[3] = {1, 1, 1};   // |B'| at u = 0, 1/2, 1
+    double run = 1;  // quadratic: L(1) of resolve.hpp
     double width_bound = 1, height_bound = 1;  // greatest factors
     bool step = false;
     std::uint32_t profile = 0;
@@ -84,9 +84,11 @@ struct Factors {
     double width = 1, height = 1, width_rate = 0, height_rate = 0;
 };
 Factors factors_on(const PreparedElement& e, double u);
-// Argument of its function at u, and d argument / du.
-double argument_on(const PreparedElement& e, double u);
-double argument_rate_on(const PreparedElement& e, double u);
+// Of a quadratic: L of resolve.hpp, the integral of |B'| / 2, and its rate.
+struct Run {
+    double length = 0, rate = 0;
+};
+Run run_to(const PreparedElement& e, double u);
 // Bounds of both factors over all arguments of an element, by what a function of its kind can give.
 void bound_factors(PreparedElement& e);
 

@@ -114,12 +114,13 @@ double argument(const Element& element, double s) {
     if (s >= 1.0) return element.argument1;
     const double span = element.argument1 - element.argument0;
     if (element.kind == ElementKind::line || span == 0.0) return element.argument0 + span * s;
-    const double v0 = length(derivative(element, 0.0)), v1 = length(derivative(element, 0.5)),
-                 v2 = length(derivative(element, 1.0));
-    // The integral of v0 + (4 v1 - 3 v0 - v2) s + 2 (v0 - 2 v1 + v2) s^2.
-    const double whole = (v0 + 4.0 * v1 + v2) / 6.0;
-    const double part = s * (v0 + s * ((2.0 * v1 - 1.5 * v0 - 0.5 * v2) + s * (2.0 / 3.0) * (v0 - 2.0 * v1 + v2)));
-    return element.argument0 + span * (whole > 0.0 ? part / whole : s);
+    const auto metres = [&](double to) {
+        constexpr double kOff = 0.7745966692414834;  // sqrt(3 / 5)
+        const auto speed = [&](double at) { return length(derivative(element, 0.5 * to * at)); };
+        return to * (5.0 * speed(1.0 - kOff) + 8.0 * speed(1.0) + 5.0 * speed(1.0 + kOff));
+    };
+    const double whole = metres(1.0);
+    return element.argument0 + span * (whole > 0.0 ? metres(s) / whole : s);
 }
 
 int chord_count(const Element& element, double tolerance) {

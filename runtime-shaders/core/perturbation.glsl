@@ -94,17 +94,18 @@ float burin_waviness(BurinElement e) {
     return 12.0f * amplitude * (finest - 1.0f) / (2.0f - 2.0f / finest);
 }
 
-// Share of the argument that is behind the parameter s, and its rate: the integral of the parabola through the speeds
-// at 0, 1/2 and 1.
+// Integral of half the speed of a quadratic from 0 to s: Gauss's rule of three points.
+float burin_run(vec2 edge, vec2 bend, float s) {
+    return s * (5.0f * length(edge + bend * (s * 0.112701665f)) + 8.0f * length(edge + bend * (s * 0.5f)) +
+                5.0f * length(edge + bend * (s * 0.887298335f)));
+}
+
+// Share of the argument that is behind the parameter s, and its rate.
 vec2 burin_arc_share(BurinElement e, float s) {
     if (!e.curved) return vec2(s, 1.0f);
-    float v0 = length(e.p1 - e.p0);
-    float v1 = length(e.p2 - e.p0) * 0.5f;
-    float v2 = length(e.p2 - e.p1);
-    float whole = max((v0 + 4.0f * v1 + v2) * (1.0f / 6.0f), 1.0e-20f);
-    float slope = 4.0f * v1 - 3.0f * v0 - v2;
-    float bend = 2.0f * (v0 - 2.0f * v1 + v2);
-    return vec2(s * (v0 + s * (0.5f * slope + s * bend * (1.0f / 3.0f))), v0 + s * (slope + s * bend)) * (1.0f / whole);
+    vec2 edge = e.p1 - e.p0;
+    vec2 bend = e.p0 - 2.0f * e.p1 + e.p2;
+    return vec2(burin_run(edge, bend, s), 18.0f * length(edge + bend * s)) * (1.0f / max(burin_run(edge, bend, 1.0f), 1.0e-20f));
 }
 
 // Width and height scale at the parameter s of the element, and their rates per s.

@@ -34,8 +34,8 @@
 // length (polynomial). resolve measures arc lengths and gives a at both ends of each element, in [0, 65536) and never
 // falling; between them, with s the curve parameter,
 //   line       a(s) = a0 + (a1 - a0) s
-//   quadratic  a(s) = a0 + (a1 - a0) A(s) / A(1),  A the integral from 0 to s of the parabola through the speeds |B'| at 0,
-//              1/2 and 1: the arc length to within 0.5 % of the element's, for turns up to 90 degrees
+//   quadratic  a(s) = a0 + (a1 - a0) L(s) / L(1),  L the integral of the speed from 0 to s by Gauss's rule of three points:
+//              the arc length to within 0.25 % of the element's, for turns up to 90 degrees
 // and beyond the ends it stays. This is the definition, for truth and shaders alike.
 #pragma once
 
