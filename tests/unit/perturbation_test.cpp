@@ -181,7 +181,8 @@ TEST(Perturbation, NoiseIsSmoothAndBounded) {
             depths[k][i] = truth.surface_at({0.1 + 0.8 * (i + 0.5) / 2000.0, 0.5}).height / -kDeep;
             least = std::min(least, depths[k][i]), most = std::max(most, depths[k][i]);
             // At 1/25 of a wavelength from each other; the slope is at most 3 amplitudes per wavelength and octave.
-            if (i > 0) EXPECT_LT(std::abs(depths[k][i] - depths[k][i - 1]), 0.5 * 3.0 * 4 * 0.04 + 1e-9);
+            const double step = i > 0 ? depths[k][i] - depths[k][i - 1] : 0.0;
+            EXPECT_LT(std::abs(step), 0.5 * 3.0 * 4 * 0.04 + 1e-9);
         }
         EXPECT_GE(least, 0.5);
         EXPECT_LE(most, 1.5);
@@ -294,7 +295,7 @@ TEST(Perturbation, TexturesHoldFunctions) {
     const auto plain_textures = pack_textures(plain, *build_grid(plain));
     ASSERT_TRUE(plain_textures.ok());
     EXPECT_EQ(plain_textures->sections.function_texels, 0u);
-    EXPECT_EQ(plain_textures->sections.element_texels, 4u);
+    EXPECT_EQ(plain_textures->sections.element_texels, 3u);  // less wide, the line fits in one
     EXPECT_EQ(write_extension(describe_pattern(plain, *plain_textures)).find("functions"), std::string::npos);
 }
 
