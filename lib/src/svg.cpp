@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 namespace burin {
@@ -148,20 +149,24 @@ std::string clones(const Pattern& pattern, std::size_t index) {
     return all;
 }
 
-// Kind and numbers of the perturbation, in the order of the struct; format/svg.md.
+// Kind and numbers of the perturbation; format/svg.md.
 std::string perturbation_text(const Pattern& pattern, const Path& path) {
     if (path.perturbation == kNoPerturbation) return "";
     const Perturbation& p = pattern.perturbations[path.perturbation];
-    std::string text;
-    if (p.kind == PerturbationKind::polynomial) {
-        text = "polynomial";
-        for (const double c : p.width_polynomial) text += " " + exact(c);
-        for (const double c : p.height_polynomial) text += " " + exact(c);
-        return text;
+    std::vector<double> numbers{p.width, p.height, p.wavelength, p.phase};
+    const char* kind = "sine";
+    if (p.kind == PerturbationKind::noise) {
+        kind = "noise";
+        numbers.back() = p.seed;
+        numbers.push_back(p.octaves);
+    } else if (p.kind == PerturbationKind::polynomial) {
+        kind = "polynomial";
+        numbers.assign(std::begin(p.width_polynomial), std::end(p.width_polynomial));
+        numbers.insert(numbers.end(), std::begin(p.height_polynomial), std::end(p.height_polynomial));
     }
-    const bool sine = p.kind == PerturbationKind::sine;
-    text = (sine ? "sine " : "noise ") + exact(p.width) + " " + exact(p.height) + " " + exact(p.wavelength) + " ";
-    return text + (sine ? exact(p.phase) : std::to_string(p.seed) + " " + std::to_string(p.octaves));
+    std::string text = kind;
+    for (const double number : numbers) text += ' ', text += exact(number);
+    return text;
 }
 
 std::string path_element(const Pattern& pattern, std::size_t index) {
