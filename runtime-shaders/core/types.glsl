@@ -125,7 +125,7 @@ struct BurinHit {
 #define BURIN_MAX_PASSES 32
 #define BURIN_MAX_SEGMENTS 6
 #if BURIN_FUNCTION_KINDS != 0
-#define BURIN_MAX_WAVE_SEGMENTS 32  // where a function changes the scales
+#define BURIN_MAX_WAVE_SEGMENTS 64  // where a function changes the scales
 #else
 #define BURIN_MAX_WAVE_SEGMENTS BURIN_MAX_SEGMENTS
 #endif

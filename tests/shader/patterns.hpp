@@ -279,6 +279,7 @@ inline std::vector<NamedPattern> authored_patterns() {
             {"waved_curves", waved_curve_pattern()},
             {"noise", noise_pattern()},
             {"polynomial", polynomial_pattern()},
+            {"fine_waves", fine_waves_pattern()},
             {"waved_junctions", waved_junctions_pattern()}};
 }
 

@@ -80,6 +80,16 @@ inline Pattern polynomial_pattern() {
     return p;
 }
 
+// Waves shorter than the path is wide, and full ones that close the groove.
+inline Pattern fine_waves_pattern() {
+    Pattern p = base(kRise);
+    p.profiles = {groove(0.04, 0.005), ridge(0.03, 0.004), vee(0.03, 0.005)};
+    p.perturbations = {wave(0.2, 0.3, 0.03), noise(0.3, 0.3, 0.06, 3, 9), wave(1.0, 0.6, 0.1), noise(0.2, 0.6, 0.02, 1, 4)};
+    p.paths = {perturbed(polyline({{0.1, 0.15}, {0.9, 0.1}}, 0), 0), perturbed(polyline({{0.1, 0.35}, {0.9, 0.3}}, 1), 1),
+               perturbed(polyline({{0.15, 0.5}, {0.85, 0.55}}, 2), 2), perturbed(circle({0.5, 0.78}, 0.13, 2), 3)};
+    return p;
+}
+
 // Waved grooves and ridges that cross, end on each other, go over a waved step, and end free.
 inline Pattern waved_junctions_pattern() {
     Pattern p = base(kRise);
