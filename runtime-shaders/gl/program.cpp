@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cpp/ground_range.hpp"
 #include "gl/shader_text.hpp"
 
 namespace burin::gl {
@@ -83,8 +84,11 @@ std::string fragment_text(Stage stage) {
          {shader_text::fetch, shader_text::curve, shader_text::domain, shader_text::section,
           shader_text::ground, shader_text::trace, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
         text += part;
-    text += stage == Stage::rays ? shader_text::rays_frag
-                                 : (stage == Stage::top ? shader_text::top_frag : shader_text::surface_frag);
+    if (stage == Stage::rays) return text + shader_text::rays_frag;
+    if (stage == Stage::top) return text + shader_text::top_frag;
+    for (const char* part : {shader_text::frame, shader_text::shade, shader_text::footprint, shader_text::stripe,
+                             shader_text::region, shader_text::surface_frag})
+        text += part;
     return text;
 }
 
@@ -127,6 +131,7 @@ DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textur
       data_width_(textures.data_width),
       grid_width_(textures.grid_width),
       grid_height_(textures.grid_height),
+      ground_range_(ground_range(textures, detail)),
       has_residual_(residual.width > 0) {
     names_[0] = make_texture(gl, GL_RG32UI, GL_RG_INTEGER, grid_width_, grid_height_, textures.grid, 2);
     names_[1] =
@@ -151,6 +156,7 @@ void DetailTextures::bind(const Program& program) const {
     program.set("burin_map.size", float(detail_.size_u), float(detail_.size_v));
     program.set("burin_map.depth", float(detail_.depth));
     program.set("burin_map.outer_level", float(detail_.base_offset - detail_.outer_level));
+    program.set("burin_map.ground_range", ground_range_[0], ground_range_[1]);
     program.set("burin_map.repeats", detail_.repeat ? 1 : 0);
     gl_.Uniform2i(program.at("burin_map.cells"), grid_width_, grid_height_);
     program.set("burin_map.first_style", int(sections_.styles_begin()));

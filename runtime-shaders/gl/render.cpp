@@ -431,6 +431,10 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     Accumulator sums(options.width, options.height);
     const WantedTexture wanted(gl);
     wanted.set(sums.wanted(), options.width, options.height);
+    const int side = int(std::round(std::sqrt(double(places.size()))));
+    program->set("regions", options.antialiasing == Antialiasing::regions ? 1 : 0);
+    program->set("samples", int(std::round(std::sqrt(double(options.rays)))));
+    program->set("pixel_part", 1.0f / float(side));
     program->set("wanted", 2);
     program->set("everywhere", 1);
     for (std::size_t k = 0; k < places.size(); ++k) {
