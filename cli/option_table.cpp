@@ -110,8 +110,8 @@ std::vector<OptionSpec> make_table() {
          "samples per pixel; with --top one unless given"},
         {"--antialiasing", "render", choice, "WHICH", "", "regions", 0, 0, "regions|points", false,
          "filter features as areas, by rays where they meet; or by rays alone"},
-        {"--rays", "render", integer, "COUNT", "", plain(render.rays), 1, 16, "", false,
-         "rays per pixel and sample where the shader filters by rays"},
+        {"--rays", "render", integer, "COUNT", "", plain(render.rays), 4, 64, "", false,
+         "rays per sample where features meet in a pixel"},
         {"--backend", "render check", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl", false,
          "OpenGL by OSMesa, which needs no GPU, or by EGL"},
 

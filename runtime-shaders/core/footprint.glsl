@@ -57,13 +57,21 @@ float burin_quad_area(vec2 a, vec2 b, vec2 c, vec2 d) {
     return abs(burin_edge_area(a, b) + burin_edge_area(b, c) + burin_edge_area(c, d) + burin_edge_area(d, a));
 }
 
-// A pixel is looked at in 4 x 4 places, one bit each: row by row, lowest first.
-vec2 burin_mask_place(int i) {
-    return (vec2(float(i % 4), float(i / 4)) + vec2(0.5f, 0.5f)) * 0.25f;
+// A pixel is looked at in 4 x 4 places, one bit each, row by row, lowest first. Rows are taken at once: loops cost some
+// drivers more than what is in them.
+vec4 burin_turns(vec2 a, vec2 b, float y) {
+    return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (vec4(0.125f, 0.375f, 0.625f, 0.875f) - a.x);
 }
 
-float burin_turn(vec2 a, vec2 b, vec2 p) {
-    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+uint burin_row_mask(vec2 a, vec2 b, vec2 c, vec2 d, float y) {
+    vec4 ab = burin_turns(a, b, y);
+    vec4 bc = burin_turns(b, c, y);
+    vec4 cd = burin_turns(c, d, y);
+    vec4 da = burin_turns(d, a, y);
+    vec4 least = min(min(ab, bc), min(cd, da));
+    vec4 most = max(max(ab, bc), max(cd, da));
+    return (least.x >= 0.0f || most.x <= 0.0f ? 1u : 0u) | (least.y >= 0.0f || most.y <= 0.0f ? 2u : 0u) |
+           (least.z >= 0.0f || most.z <= 0.0f ? 4u : 0u) | (least.w >= 0.0f || most.w <= 0.0f ? 8u : 0u);
 }
 
 // Places inside a convex quadrilateral.
@@ -71,13 +79,6 @@ uint burin_quad_mask(vec2 a, vec2 b, vec2 c, vec2 d) {
     vec2 low = min(min(a, b), min(c, d));
     vec2 high = max(max(a, b), max(c, d));
     if (low.x > 1.0f || low.y > 1.0f || high.x < 0.0f || high.y < 0.0f) return 0u;
-    uint mask = 0u;
-    for (int i = 0; i < 16; ++i) {
-        vec2 p = burin_mask_place(i);
-        vec4 turns = vec4(burin_turn(a, b, p), burin_turn(b, c, p), burin_turn(c, d, p), burin_turn(d, a, p));
-        bool inside = min(min(turns.x, turns.y), min(turns.z, turns.w)) >= 0.0f ||
-                      max(max(turns.x, turns.y), max(turns.z, turns.w)) <= 0.0f;
-        if (inside) mask = mask | (1u << uint(i));
-    }
-    return mask;
+    return burin_row_mask(a, b, c, d, 0.125f) | (burin_row_mask(a, b, c, d, 0.375f) << 4) |
+           (burin_row_mask(a, b, c, d, 0.625f) << 8) | (burin_row_mask(a, b, c, d, 0.875f) << 12);
 }

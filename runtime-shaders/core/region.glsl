@@ -57,7 +57,6 @@ BurinStretch burin_stretch_of(BurinElement e, vec2 place, BurinReachOf reach, ve
     if (dot(place - e.p2, e.t2) > reach.along + tips.y && stretch.middle >= 0.5f) return stretch;
     float room = (reach.along + max(tips.x, tips.y)) / length(rate);
     stretch.limits = clamp(vec2(stretch.middle - 2.0f * room, stretch.middle + 2.0f * room), vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
-    if (!e.curved) stretch.limits = vec2(0.0f, 1.0f);
     return stretch;
 }
 
@@ -103,6 +102,8 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
         stretch.limits = vec2(mix(limits.x, limits.y, float(i) / float(pieces)),
                               mix(limits.x, limits.y, float(i + 1) / float(pieces)));
         stretch.lean = vec2(stretch.limits.x <= 0.0f ? lean.x : 0.0f, stretch.limits.y >= 1.0f ? lean.y : 0.0f);
+        stretch.near_first = i == 0 && limits.x <= 0.0f;
+        stretch.near_last = i == pieces - 1 && limits.y >= 1.0f;
         if (pieces > 1) {
             stretch.middle = clamp(centre, stretch.limits.x, stretch.limits.y);
             stretch.normal = burin_normal_of(burin_direction(burin_path_rate(e, stretch.middle), e.t0));

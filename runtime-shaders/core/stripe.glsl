@@ -20,14 +20,20 @@ struct BurinStretch {
     vec2 lean;     // and how much further for each metre of offset
     vec2 normal;   // of the path at the middle
     vec2 scales;   // width and height there
+    bool near_first;  // the pixel may see the stretch's ends
+    bool near_last;
 };
 
-// One profile point along the stretch.
+// One profile point along the stretch, or the rim of a shadow.
 struct BurinRail {
-    vec2 from;    // pixel coordinates of its two ends: where on the object surface the ray to them passes
+    vec2 from;     // pixel coordinates of the part beside the pixel: where on the object surface the ray to it passes
     vec2 to;
-    vec2 way;     // metres across the path from there to the path, at both ends
-    float b;      // metres, and drop, at the middle
+    vec2 first;    // and of the whole rail's ends, where it ends near the pixel; else the same two
+    vec2 last;
+    bool at_first;  // the part beside the pixel is cut off there
+    bool at_last;
+    vec2 way;      // metres across the path from there to the path, at both ends
+    float b;       // metres, and drop, at the middle
     float drop;
     float middle;  // parameter of the point of the rail that is nearest to the pixel's centre
 };
@@ -61,35 +67,98 @@ float burin_beside(BurinElement e, vec2 place, float s) {
     return s;
 }
 
+// A point of a profile, and how far it is carried over the plane before it is looked at: nowhere, or along the light.
+struct BurinThrown {
+    vec2 point;
+    vec2 shift;   // metres
+    float below;  // drop to look at it less its own
+};
+
 // One end of a rail: pixel coordinates and way.
 vec3 burin_rail_end(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
-                    vec2 point, float s) {
+                    BurinThrown thrown, float s) {
     vec2 scales = burin_scales_at(e, s);
-    float b = point.x * style.reach * scales.x;
-    float drop = style.level - point.y * scales.y * burin_map.depth;
+    float b = thrown.point.x * style.reach * scales.x;
+    float drop = style.level - thrown.point.y * scales.y * burin_map.depth;
     vec2 plan = burin_path_at(e, s) + burin_normal_of(burin_direction(burin_path_rate(e, s), e.t0)) * b;
-    vec2 at = burin_to_pixel(footprint, plan - slope * drop);
+    vec2 at = burin_to_pixel(footprint, plan + thrown.shift - slope * (drop + thrown.below));
     return vec3(at, b - dot(slope, stretch.normal) * drop);
 }
 
-BurinRail burin_rail(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
-                     vec2 point) {
+BurinRail burin_thrown_rail(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
+                          BurinThrown thrown) {
     BurinRail rail;
-    rail.b = point.x * style.reach * stretch.scales.x;
-    rail.drop = style.level - point.y * stretch.scales.y * burin_map.depth;
-    rail.middle = burin_beside(e, slope * rail.drop, stretch.middle);
-    float speed = length(burin_path_rate(e, rail.middle));
-    // On the inner side of a bend the rail is shorter than the path.
-    float room = (e.curved ? 2.0f : 1.0f) * stretch.room / speed;
-    vec2 ends = stretch.limits + stretch.lean * (rail.b / vec2(length(burin_path_rate(e, 0.0f)), length(burin_path_rate(e, 1.0f))));
+    rail.b = thrown.point.x * style.reach * stretch.scales.x;
+    rail.drop = style.level - thrown.point.y * stretch.scales.y * burin_map.depth;
+    vec2 speeds = vec2(length(burin_path_rate(e, 0.0f)), length(burin_path_rate(e, 1.0f)));
+    vec2 ends = stretch.limits + stretch.lean * (rail.b / speeds);
     ends.y = max(ends.x, ends.y);
-    vec3 from = burin_rail_end(e, style, stretch, footprint, slope, point, clamp(rail.middle - room, ends.x, ends.y));
-    vec3 to = burin_rail_end(e, style, stretch, footprint, slope, point, clamp(rail.middle + room, ends.x, ends.y));
+    vec2 range = ends;
+    rail.middle = burin_beside(e, slope * (rail.drop + thrown.below) - thrown.shift, stretch.middle);
+    if (e.curved) {
+        // On the inner side of a bend the rail is shorter than the path.
+        float room = 2.0f * stretch.room / length(burin_path_rate(e, rail.middle));
+        range = clamp(vec2(rail.middle - room, rail.middle + room), vec2(ends.x, ends.x), vec2(ends.y, ends.y));
+    }
+    vec3 from = burin_rail_end(e, style, stretch, footprint, slope, thrown, range.x);
+    vec3 to = burin_rail_end(e, style, stretch, footprint, slope, thrown, range.y);
     rail.middle = clamp(rail.middle, ends.x, ends.y);
     rail.from = vec2(from.x, from.y);
     rail.to = vec2(to.x, to.y);
     rail.way = vec2(from.z, to.z);
+    rail.first = rail.from;
+    rail.last = rail.to;
+    rail.at_first = range.x <= ends.x;
+    rail.at_last = range.y >= ends.y;
+    if (e.curved && stretch.near_first && !rail.at_first) {
+        vec3 end = burin_rail_end(e, style, stretch, footprint, slope, thrown, ends.x);
+        rail.first = vec2(end.x, end.y);
+    }
+    if (e.curved && stretch.near_last && !rail.at_last) {
+        vec3 end = burin_rail_end(e, style, stretch, footprint, slope, thrown, ends.y);
+        rail.last = vec2(end.x, end.y);
+    }
     return rail;
+}
+
+BurinRail burin_rail(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
+                     vec2 point) {
+    BurinThrown thrown;
+    thrown.point = point;
+    thrown.shift = vec2(0.0f, 0.0f);
+    thrown.below = 0.0f;
+    return burin_thrown_rail(e, style, stretch, footprint, slope, thrown);
+}
+
+// Share of the pixel between two rails, from `from` to `to` of the way between them, each at the start and at the end.
+// Where one of them is cut off by the stretch's end, both are followed to it.
+float burin_strip_area(BurinRail a, BurinRail b, vec2 from, vec2 to) {
+    vec2 p0 = mix(a.from, b.from, from.x);
+    vec2 p1 = mix(a.from, b.from, to.x);
+    vec2 q0 = mix(a.to, b.to, from.y);
+    vec2 q1 = mix(a.to, b.to, to.y);
+    float area = burin_edge_area(p0, q0) + burin_edge_area(q1, p1);
+    if (a.at_first || b.at_first) {
+        vec2 r0 = mix(a.first, b.first, from.x);
+        vec2 r1 = mix(a.first, b.first, to.x);
+        area = area + burin_edge_area(p1, r1) + burin_edge_area(r1, r0) + burin_edge_area(r0, p0);
+    } else {
+        area = area + burin_edge_area(p1, p0);
+    }
+    if (a.at_last || b.at_last) {
+        vec2 r0 = mix(a.last, b.last, from.y);
+        vec2 r1 = mix(a.last, b.last, to.y);
+        area = area + burin_edge_area(q0, r0) + burin_edge_area(r0, r1) + burin_edge_area(r1, q1);
+    } else {
+        area = area + burin_edge_area(q0, q1);
+    }
+    return abs(area);
+}
+
+uint burin_strip_mask(BurinRail a, BurinRail b) {
+    bool start = a.at_first || b.at_first;
+    bool end = a.at_last || b.at_last;
+    return burin_quad_mask(start ? a.first : a.from, start ? b.first : b.from, end ? b.last : b.to, end ? a.last : a.to);
 }
 
 // Unit normal, z up, of the facet between two rails, the left one first, where it is nearest to the pixel's centre.
@@ -118,7 +187,9 @@ vec3 burin_facet_normal(BurinElement e, BurinStyle style, BurinStretch stretch, 
 // where it comes from, and the length of the shadow on the ground behind.
 struct BurinShade {
     float hidden[BURIN_MAX_PROFILE_POINTS];
-    float beyond;
+    vec2 caster;   // point that the shadow on the ground behind comes from
+    vec2 last;     // point where that ground begins
+    float beyond;  // metres across the path, of that shadow
     float order;  // +1: the light runs from left to right
     bool folded;  // the profile is no height field
 };
@@ -146,10 +217,12 @@ BurinShade burin_shade_profile(BurinStyle style, vec2 scales, float light, bool 
             if (shade.order * (point.x - last.x) < -1.0e-5f) shade.folded = true;
             shade.hidden[shade.order > 0.0f ? k - 1 : i] = shadows ? burin_hidden(run, last_way, way) : 0.0f;
         }
+        if (way >= run) shade.caster = point;
         run = max(run, way);
         last = point;
         last_way = way;
     }
+    shade.last = last;
     shade.beyond = shadows ? max(run - last_way, 0.0f) : 0.0f;
     return shade;
 }
@@ -158,13 +231,12 @@ BurinShade burin_shade_profile(BurinStyle style, vec2 scales, float light, bool 
 // first `hidden` of it, counted along the light's way.
 void burin_add_facet(BurinElement e, BurinStyle style, BurinStretch stretch, BurinRail last, BurinRail next, vec2 seen,
                      float order, float hidden, bool same, vec2 slope, BURIN_INOUT(BurinRegion) region) {
-    float area = burin_quad_area(mix(last.from, next.from, seen.x), next.from, next.to, mix(last.to, next.to, seen.y));
-    if (area <= 0.0f) return;
     vec2 one = vec2(1.0f, 1.0f);
+    float area = burin_strip_area(last, next, seen, one);
+    if (area <= 0.0f) return;
     vec2 from = clamp(one * (same ? hidden : 0.0f), seen, one);
     vec2 to = clamp(one * (same ? 1.0f : 1.0f - hidden), seen, one);
-    float lit = burin_quad_area(mix(last.from, next.from, from.x), mix(last.from, next.from, to.x),
-                                mix(last.to, next.to, to.y), mix(last.to, next.to, from.y));
+    float lit = burin_strip_area(last, next, from, to);
     BurinRail left = last;
     BurinRail right = next;
     if (order < 0.0f) {
@@ -197,30 +269,34 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
             if (min(seen.x, seen.y) < 1.0f && !shade.folded)
                 burin_add_facet(e, style, stretch, last, next, seen, order, shade.hidden[order > 0.0f ? k - 1 : i], same, slope, region);
         }
-        if (next.way.x * order > run.x) far.from = next.from;
-        if (next.way.y * order > run.y) far.to = next.to;
+        if (next.way.x * order > run.x) {
+            far.from = next.from;
+            far.first = next.first;
+            far.at_first = next.at_first;
+        }
+        if (next.way.y * order > run.y) {
+            far.to = next.to;
+            far.last = next.last;
+            far.at_last = next.at_last;
+        }
         run = max(run, next.way * order);
         last = next;
     }
-    if (shade.beyond > 0.0f && !shade.folded) {
-        // Shadow on the ground behind the profile, as far as the profile does not hide it.
-        vec2 across = burin_pixel_direction(footprint, stretch.normal * (shade.order * shade.beyond));
-        float behind = same ? max(run.x - last.way.x * order, 0.0f) : 0.0f;
-        BurinRail rim = last;
-        if (!same) rim = first;
-        if (behind < shade.beyond) {
-            BurinRail near = far;
-            if (!same) near = first;
-            float area = burin_quad_area(near.from, rim.from + across, rim.to + across, near.to);
-            vec3 color = burin_facet_color(vec3(0.0f, 0.0f, 1.0f), 0u, 0.0f);
-            region.color = region.color + (color - region.ground) * area;
-            rim.from = rim.from + across;
-            rim.to = rim.to + across;
-            if (same) far = rim;
-            else first = rim;
-        }
-    }
-    uint mask = burin_quad_mask(first.from, far.from, far.to, first.to);
+    uint mask = burin_strip_mask(first, far);
     if (shade.folded) region.special = region.special | mask;
-    return mask;
+    if (shade.folded || shade.beyond <= 0.0f) return mask;
+    // Shadow on the ground behind the profile, as far as the profile does not hide it.
+    float behind = same ? max(run.x - last.way.x * order, 0.0f) : 0.0f;
+    if (behind >= shade.beyond) return mask;
+    BurinThrown thrown;
+    thrown.point = shade.caster;
+    thrown.below = (shade.caster.y - shade.last.y) * stretch.scales.y * burin_map.depth;
+    thrown.shift = light_slope * thrown.below;
+    BurinRail rim = burin_thrown_rail(e, style, stretch, footprint, slope, thrown);
+    BurinRail near = first;
+    if (same) near = far;
+    float area = burin_strip_area(near, rim, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
+    vec3 color = burin_facet_color(vec3(0.0f, 0.0f, 1.0f), 0u, 0.0f);
+    region.color = region.color + (color - region.ground) * area;
+    return mask | burin_strip_mask(near, rim);
 }

@@ -63,8 +63,12 @@ struct RenderOptions {
     // neighbours differ by a step of the picture's 8 bits.
     int samples = 16;
     Antialiasing antialiasing = Antialiasing::regions;
-    // Rays per pixel within one picture, 1, 4, 9 or 16: everywhere with points, where features meet with regions.
+    // With regions: rays per sample where features meet, 4 or 16; [4, 64], rounded up to an even square. With points every
+    // sample is one ray.
     int rays = 16;
+    // Everything in one run of the shader, as an engine does it. Otherwise the rays of `rays` are runs of their own, which
+    // suits a CPU better: OSMesa ends a shader after 65535 turns of its loops.
+    bool one_run = false;
     std::array<float, 3> background = {0.93f, 0.93f, 0.93f};  // sRGB
     Backend backend = Backend::osmesa;
 };

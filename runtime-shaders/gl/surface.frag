@@ -4,8 +4,16 @@ uniform vec3 eye;           // of a perspective camera
 uniform vec3 view;          // direction of an orthographic one; zero for perspective
 uniform int has_detail;
 uniform int shadows;
-uniform int regions;        // 1: the pixel is filtered as a whole, and by samples only where that does not suffice
-uniform int samples;        // per side of the pixel, 1 to 4, where it is filtered by samples
+// How the pixel is filtered. RAYS: side x side rays. REGIONS: as a whole, and by rays only where that does not suffice.
+// MARKED: as REGIONS without the rays; alpha names the quarters that want them, a bit each. QUARTERS: one ray, at
+// ray_place, where `wanted` has the bit of the quarter that it lies in. The last two are one picture in several passes.
+#define FILTER_RAYS 0
+#define FILTER_REGIONS 1
+#define FILTER_MARKED 2
+#define FILTER_QUARTERS 3
+uniform int pixel_filter;
+uniform int side;           // rays per side of the pixel, 1 to 4
+uniform vec2 ray_place;     // within the pixel, -0.5 to 0.5
 uniform float pixel_part;   // side of what is filtered, in pixels: below 1 where several pictures are averaged
 uniform highp sampler2D wanted;  // one texel per pixel: 0 where the picture needs no further sample
 uniform int everywhere;          // 1: all pixels are drawn
@@ -46,8 +54,9 @@ vec3 sampled_color(BurinRay ray, vec2 along_x, vec2 along_y, int side) {
 }
 
 // The whole pixel at once where its features do not meet; else its quarters; and those where they do, by rays.
-vec3 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
+vec4 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
     vec3 sum = vec3(0.0);
+    int marks = 0;
     for (int part = 0; part <= 4; ++part) {
         BurinRay part_ray = ray;
         vec2 x = along_x;
@@ -64,17 +73,28 @@ vec3 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
         BurinRegion region = burin_region(part_ray, burin_footprint(x, y), light_slope, shadows != 0 && light_above, ground);
         vec3 found = ground + region.color;
         if (part == 0) {
-            if (region.special == 0u) return found;
-        } else {
-            if (region.special != 0u) found = sampled_color(part_ray, x, y, max(samples / 2, 1));
-            sum += found * 0.25;
+            if (region.special == 0u) return vec4(found, 0.0);
+            continue;
         }
+        if (region.special != 0u) {
+            found = vec3(0.0);
+            if (pixel_filter == FILTER_MARKED) marks += 1 << (part - 1);
+            else found = sampled_color(part_ray, x, y, max(side / 2, 1));
+        }
+        sum += found * 0.25;
     }
-    return sum;
+    return vec4(sum, float(marks));
+}
+
+bool is_wanted() {
+    int bits = int(texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x * 255.0 + 0.5);
+    if (pixel_filter != FILTER_QUARTERS) return everywhere != 0 || bits != 0;
+    int quarter = (ray_place.x < 0.0 ? 0 : 1) + (ray_place.y < 0.0 ? 0 : 2);
+    return ((bits >> quarter) & 1) != 0;
 }
 
 void main() {
-    if (everywhere == 0 && texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x == 0.0) discard;
+    if (!is_wanted()) discard;
     to_eye = dot(view, view) > 0.0 ? -view : normalize(eye - world_position);
     vec3 n = normalize(world_normal);
     uv_along_x = dFdx(pattern_uv) * pixel_part;
@@ -83,7 +103,7 @@ void main() {
     mat3 frame = pattern_frame(n);
     float handed = determinant(frame);
     if (has_detail == 0 || abs(handed) <= 1.0e-12 || dot(n, to_eye) <= 1.0e-3) {
-        color = vec4(clamp(shade(n, base_color.rgb, metallic, roughness, 1.0), 0.0, 1.0), 1.0);
+        color = vec4(clamp(shade(n, base_color.rgb, metallic, roughness, 1.0), 0.0, 1.0), 0.0);
         return;
     }
     to_pattern = inverse(frame);
@@ -95,6 +115,10 @@ void main() {
     ray.slope = slope_of(to_pattern * -to_eye);
     vec2 along_x = uv_along_x * burin_map.size;
     vec2 along_y = uv_along_y * burin_map.size;
-    vec3 found = regions != 0 ? filtered_color(ray, along_x, along_y) : sampled_color(ray, along_x, along_y, samples);
-    color = vec4(found, 1.0);
+    if (pixel_filter == FILTER_REGIONS || pixel_filter == FILTER_MARKED) {
+        color = filtered_color(ray, along_x, along_y);
+        return;
+    }
+    if (pixel_filter == FILTER_QUARTERS) ray.origin += along_x * ray_place.x + along_y * ray_place.y;
+    color = vec4(sampled_color(ray, along_x, along_y, pixel_filter == FILTER_RAYS ? side : 1), 0.0);
 }
