@@ -2,6 +2,11 @@
 // what is left is ground. Where two features lie over each other, and at ends that are no joints, the places of the pixel
 // are named instead, for the caller to ask ray by ray.
 
+// Radians that a path may turn while a ray falls through its profile.
+#define BURIN_MOST_BEND 0.35f
+#define BURIN_MAX_REGION_CELLS 64
+#define BURIN_MAX_REGION_ELEMENTS 64
+
 // A feature's part in one question.
 struct BurinReachOf {
     float across;   // metres beside the path, at the ground, within which it can show in the pixel
@@ -22,12 +27,23 @@ float burin_end_lean(BurinEnd end, vec2 tangent) {
     return abs(across) < 0.02f ? 0.0f : -burin_cross(end.clip, end.normal) / across;
 }
 
-// Places around an end that stripes do not describe.
-uint burin_end_mask(BurinEnd end, BurinFootprint footprint, vec2 slope, float drop, float reach, float spread) {
-    if (burin_end_is_plain(end)) return 0u;
+// Whether the path goes on beyond the end as if there were none.
+bool burin_end_is_smooth(BurinEnd end, float lean) {
+    return end.priority == BURIN_PRIORITY_BOTH && end.shape == BURIN_END_CLIP && abs(lean) < 0.03f;
+}
+
+// Places around an end that stripes do not describe: caps and joins, and what the light reaches past the end, though the
+// profile alone would keep it off. `light_way`: metres that the light moves over the plane within the profile.
+uint burin_end_mask(BurinEnd end, BurinFootprint footprint, vec2 slope, float drop, float reach, float spread, float lean,
+                    vec2 light_way) {
+    if (burin_end_is_smooth(end, lean)) return 0u;
+    bool plain = burin_end_is_plain(end);
+    float lit = max(dot(light_way, end.inward), 0.0f);
+    if (plain && lit <= 0.0f) return 0u;
+    float tip = abs(lean) * reach;
+    float back = spread + (lit > 0.0f ? lit + tip : 0.0f);
+    float ahead = plain ? tip : (end.priority == BURIN_PRIORITY_NONE ? spread : reach + spread);
     vec2 middle = end.vertex - slope * drop;
-    float back = spread;
-    float ahead = end.priority == BURIN_PRIORITY_NONE ? spread : reach + spread;
     vec2 side = end.normal * (reach + spread);
     vec2 a = middle + end.inward * (back + 1.0e-3f * reach);
     vec2 b = middle - end.inward * (ahead + 1.0e-3f * reach);
@@ -86,14 +102,18 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     BurinEnd start = burin_end(e, true);
     BurinEnd end = burin_end(e, false);
     vec2 lean = vec2(burin_end_lean(start, e.t0), burin_end_lean(end, e.t2));
-    BurinStretch stretch = burin_stretch_of(e, place, reach, abs(lean) * wide);
+    vec2 tips = abs(lean) * wide;
+    if (!burin_end_is_plain(start)) tips.x = wide;
+    if (!burin_end_is_plain(end)) tips.y = wide;
+    BurinStretch stretch = burin_stretch_of(e, place, reach, tips);
+    vec2 light_way = light_slope * (shadows ? max(cell.lowest - cell.highest, 0.0f) : 0.0f);
     vec2 limits = stretch.limits;
     if (limits.y < limits.x) return;
     stretch.room = footprint.radius;
-    if (limits.x <= 0.0f)
-        region.special = region.special | burin_end_mask(start, footprint, ray.slope, style.level, wide, reach.spread);
-    if (limits.y >= 1.0f)
-        region.special = region.special | burin_end_mask(end, footprint, ray.slope, style.level, wide, reach.spread);
+    region.special = region.special | burin_end_mask(start, footprint, ray.slope, style.level, wide, reach.spread, lean.x,
+                                                         light_way);
+    region.special = region.special | burin_end_mask(end, footprint, ray.slope, style.level, wide, reach.spread, lean.y,
+                                                         light_way);
     uint mask = 0u;
     int pieces = burin_piece_count(e, limits, footprint.radius);
     float centre = stretch.middle;
@@ -111,12 +131,12 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
         }
         mask = mask | burin_add_stripe(e, style, stretch, footprint, ray.slope, light_slope, shadows, region);
     }
+    // A ray that runs along a bend for long meets it elsewhere than the stripes are.
+    float curvature = abs(burin_bend(e, stretch, ray.slope, light_slope).curvature);
+    if (curvature * reach.spread > BURIN_MOST_BEND) region.special = region.special | mask;
     region.special = region.special | (region.covered & mask);
     region.covered = region.covered | mask;
 }
-
-#define BURIN_MAX_REGION_CELLS 64
-#define BURIN_MAX_REGION_ELEMENTS 64
 
 // Corners of the box, in cells, that the pixel passes between the drops.
 vec4 burin_region_box(BurinRay ray, BurinFootprint footprint, vec2 drops) {

@@ -32,7 +32,7 @@ struct BurinRail {
     vec2 last;
     bool at_first;  // the part beside the pixel is cut off there
     bool at_last;
-    vec2 way;      // metres across the path from there to the path, at both ends
+    vec2 way;      // metres across the path from the pixel's centre to there, at both ends
     float b;       // metres, and drop, at the middle
     float drop;
     float middle;  // parameter of the point of the rail that is nearest to the pixel's centre
@@ -82,7 +82,7 @@ vec3 burin_rail_end(BurinElement e, BurinStyle style, BurinStretch stretch, Buri
     float drop = style.level - thrown.point.y * scales.y * burin_map.depth;
     vec2 plan = burin_path_at(e, s) + burin_normal_of(burin_direction(burin_path_rate(e, s), e.t0)) * b;
     vec2 at = burin_to_pixel(footprint, plan + thrown.shift - slope * (drop + thrown.below));
-    return vec3(at, b - dot(slope, stretch.normal) * drop);
+    return vec3(at, dot(plan + thrown.shift - slope * (drop + thrown.below), stretch.normal));
 }
 
 BurinRail burin_thrown_rail(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
@@ -162,13 +162,10 @@ uint burin_strip_mask(BurinRail a, BurinRail b) {
 }
 
 // Unit normal, z up, of the facet between two rails, the left one first, where it is nearest to the pixel's centre.
-vec3 burin_facet_normal(BurinElement e, BurinStyle style, BurinStretch stretch, BurinRail left, BurinRail right,
-                        vec2 slope) {
-    vec2 place = burin_path_at(e, stretch.middle);
-    float centre = -dot(place, stretch.normal);
-    float from = left.b - dot(slope, stretch.normal) * left.drop;
-    float to = right.b - dot(slope, stretch.normal) * right.drop;
-    float at = abs(to - from) > 0.0f ? clamp((centre - from) / (to - from), 0.0f, 1.0f) : 0.5f;
+vec3 burin_facet_normal(BurinElement e, BurinStyle style, BurinRail left, BurinRail right) {
+    float from = left.way.x + left.way.y;
+    float to = right.way.x + right.way.y;
+    float at = abs(to - from) > 0.0f ? clamp(from / (from - to), 0.0f, 1.0f) : 0.5f;
     vec2 rate = burin_path_rate(e, mix(left.middle, right.middle, at));
     vec2 normal = burin_normal_of(burin_direction(rate, e.t0));
     vec3 across = vec3(normal * (right.b - left.b), left.drop - right.drop);
@@ -199,38 +196,79 @@ float burin_hidden(float run, float last, float next) {
     return next > run ? clamp((run - last) / max(next - last, 1.0e-30f), 0.0f, 1.0f) : 1.0f;
 }
 
-// `light` is what the light moves across per metre of fall.
-BurinShade burin_shade_profile(BurinStyle style, vec2 scales, float light, bool shadows) {
+// The path beside the pixel, as light and shadow see it.
+struct BurinBend {
+    vec2 light;       // metres that the light moves along and across the path per metre of fall
+    float slope;      // metres that the ray moves along it
+    float curvature;  // of the path, 1 / metres, positive where it turns to the side of its normal
+};
+
+BurinBend burin_bend(BurinElement e, BurinStretch stretch, vec2 slope, vec2 light_slope) {
+    BurinBend bend;
+    vec2 tangent = vec2(stretch.normal.y, -stretch.normal.x);
+    bend.light = vec2(dot(light_slope, tangent), dot(light_slope, stretch.normal));
+    bend.slope = dot(slope, tangent);
+    vec2 rate = burin_path_rate(e, stretch.middle);
+    bend.curvature = e.curved ? dot(2.0f * (e.p0 - 2.0f * e.p1 + e.p2), stretch.normal) / dot(rate, rate) : 0.0f;
+    return bend;
+}
+
+// Offset less `rim`'s at which the light to `point` passes the height of `rim`; points are (b, drop less the level's). On
+// a bend the ray has met the path elsewhere at the point's height, and the light comes from elsewhere once more.
+float burin_clearance(BurinBend bend, vec2 point, vec2 rim) {
+    float fall = point.y - rim.y;
+    float across = bend.light.y - bend.curvature * bend.slope * point.y * bend.light.x;
+    float along = bend.light.x * fall;
+    float round_off = 0.5f * bend.curvature * along * along / max(1.0f - bend.curvature * point.x, 0.25f);
+    return point.x - across * fall - round_off - rim.x;
+}
+
+vec2 burin_shade_point(BurinStyle style, vec2 scales, int i) {
+    vec2 point = burin_profile_point(style, i);
+    return vec2(point.x * style.reach * scales.x, -point.y * scales.y * burin_map.depth);
+}
+
+BurinShade burin_shade_profile(BurinStyle style, vec2 scales, BurinBend bend, bool shadows) {
     BurinShade shade;
-    shade.order = light < 0.0f ? -1.0f : 1.0f;
+    shade.order = bend.light.y < 0.0f ? -1.0f : 1.0f;
     shade.folded = false;
-    float run = -1.0e30f;
+    shade.beyond = 0.0f;
     vec2 last = vec2(0.0f, 0.0f);
-    float last_way = 0.0f;
+    int rim = 0;  // of a straight path: the point that keeps most light off what follows
     for (int k = 0; k < BURIN_MAX_PROFILE_POINTS; ++k) {
         if (k >= style.count) break;
         int i = shade.order > 0.0f ? k : style.count - 1 - k;
-        vec2 point = burin_profile_point(style, i);
-        float drop = style.level - point.y * scales.y * burin_map.depth;
-        float way = shade.order * (point.x * style.reach * scales.x - light * drop);
-        if (k > 0) {
-            if (shade.order * (point.x - last.x) < -1.0e-5f) shade.folded = true;
-            shade.hidden[shade.order > 0.0f ? k - 1 : i] = shadows ? burin_hidden(run, last_way, way) : 0.0f;
+        vec2 point = burin_shade_point(style, scales, i);
+        if (k > 0 && shade.order * (point.x - last.x) < -1.0e-5f * style.reach) shade.folded = true;
+        float hidden = 0.0f;
+        float least = 0.0f;
+        for (int n = 0; n < BURIN_MAX_PROFILE_POINTS; ++n) {
+            int j = bend.curvature == 0.0f ? rim : n;
+            if (j >= k || n > (bend.curvature == 0.0f ? 0 : k)) break;
+            vec2 edge = burin_shade_point(style, scales, shade.order > 0.0f ? j : style.count - 1 - j);
+            float from = shade.order * burin_clearance(bend, last, edge);
+            float to = shade.order * burin_clearance(bend, point, edge);
+            if (j == k - 1) from = 0.0f;
+            hidden = max(hidden, to > 0.0f ? clamp(from / min(from - to, -1.0e-30f), 0.0f, 1.0f) : 1.0f);
+            if (to >= least) continue;
+            least = to;
+            shade.caster = burin_profile_point(style, shade.order > 0.0f ? j : style.count - 1 - j);
         }
-        if (way >= run) shade.caster = point;
-        run = max(run, way);
+        if (hidden < 1.0f) rim = k;
+        if (k > 0) shade.hidden[shade.order > 0.0f ? k - 1 : i] = shadows ? hidden : 0.0f;
+        if (k == style.count - 1) {
+            shade.beyond = shadows ? -least : 0.0f;
+            shade.last = burin_profile_point(style, i);
+        }
         last = point;
-        last_way = way;
     }
-    shade.last = last;
-    shade.beyond = shadows ? max(run - last_way, 0.0f) : 0.0f;
     return shade;
 }
 
 // One facet, from the rail that the ray passes first: `seen` of the way to the next one is hidden, and the light misses the
 // first `hidden` of it, counted along the light's way.
-void burin_add_facet(BurinElement e, BurinStyle style, BurinStretch stretch, BurinRail last, BurinRail next, vec2 seen,
-                     float order, float hidden, bool same, vec2 slope, BURIN_INOUT(BurinRegion) region) {
+void burin_add_facet(BurinElement e, BurinStyle style, BurinRail last, BurinRail next, vec2 seen, float order,
+                     float hidden, bool same, BURIN_INOUT(BurinRegion) region) {
     vec2 one = vec2(1.0f, 1.0f);
     float area = burin_strip_area(last, next, seen, one);
     if (area <= 0.0f) return;
@@ -243,7 +281,7 @@ void burin_add_facet(BurinElement e, BurinStyle style, BurinStretch stretch, Bur
         left = next;
         right = last;
     }
-    vec3 normal = burin_facet_normal(e, style, stretch, left, right, slope);
+    vec3 normal = burin_facet_normal(e, style, left, right);
     vec3 color = burin_facet_color(normal, style.material, min(lit / area, 1.0f));
     region.color = region.color + (color - region.ground) * area;
 }
@@ -251,7 +289,7 @@ void burin_add_facet(BurinElement e, BurinStyle style, BurinStretch stretch, Bur
 // Adds the facets of one stretch; returns the places that they and their shadow cover.
 uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
                       vec2 light_slope, bool shadows, BURIN_INOUT(BurinRegion) region) {
-    BurinShade shade = burin_shade_profile(style, stretch.scales, dot(light_slope, stretch.normal), shadows);
+    BurinShade shade = burin_shade_profile(style, stretch.scales, burin_bend(e, stretch, slope, light_slope), shadows);
     float order = dot(slope, stretch.normal) < 0.0f ? -1.0f : 1.0f;
     bool same = shade.order == order;
     vec2 run = vec2(-1.0e30f, -1.0e30f);
@@ -267,7 +305,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
             vec2 seen = vec2(burin_hidden(run.x, last.way.x * order, next.way.x * order),
                              burin_hidden(run.y, last.way.y * order, next.way.y * order));
             if (min(seen.x, seen.y) < 1.0f && !shade.folded)
-                burin_add_facet(e, style, stretch, last, next, seen, order, shade.hidden[order > 0.0f ? k - 1 : i], same, slope, region);
+                burin_add_facet(e, style, last, next, seen, order, shade.hidden[order > 0.0f ? k - 1 : i], same, region);
         }
         if (next.way.x * order > run.x) {
             far.from = next.from;
