@@ -4,6 +4,8 @@
 
 // Radians that a path may turn while a ray falls through its profile.
 #define BURIN_MOST_BEND 0.35f
+// Part of the pixel that may be drawn as if the features in it did not know of each other.
+#define BURIN_LEAST_AREA 0.03f
 #define BURIN_MAX_REGION_CELLS 64
 #define BURIN_MAX_REGION_ELEMENTS 64
 
@@ -32,23 +34,26 @@ bool burin_end_is_smooth(BurinEnd end, float lean) {
     return end.priority == BURIN_PRIORITY_BOTH && end.shape == BURIN_END_CLIP && abs(lean) < 0.03f;
 }
 
-// Places around an end that stripes do not describe: caps and joins, and what the light reaches past the end, though the
-// profile alone would keep it off. `light_way`: metres that the light moves over the plane within the profile.
-uint burin_end_mask(BurinEnd end, BurinFootprint footprint, vec2 slope, float drop, float reach, float spread, float lean,
-                    vec2 light_way) {
+// Places around an end that stripes do not describe: caps and joins; and, where another feature begins there, what ray
+// and light reach past the end though the profile alone would keep them off. `way` and `light_way`: metres that they move
+// over the plane within the profile.
+uint burin_end_mask(BurinEnd end, BurinFootprint footprint, vec2 place, float reach, float lean, vec2 way, vec2 light_way) {
     if (burin_end_is_smooth(end, lean)) return 0u;
     bool plain = burin_end_is_plain(end);
-    float lit = max(dot(light_way, end.inward), 0.0f);
-    if (plain && lit <= 0.0f) return 0u;
-    float tip = abs(lean) * reach;
-    float back = spread + (lit > 0.0f ? lit + tip : 0.0f);
-    float ahead = plain ? tip : (end.priority == BURIN_PRIORITY_NONE ? spread : reach + spread);
-    vec2 middle = end.vertex - slope * drop;
-    vec2 side = end.normal * (reach + spread);
-    vec2 a = middle + end.inward * (back + 1.0e-3f * reach);
-    vec2 b = middle - end.inward * (ahead + 1.0e-3f * reach);
-    return burin_quad_mask(burin_to_pixel(footprint, a - side), burin_to_pixel(footprint, a + side),
-                           burin_to_pixel(footprint, b + side), burin_to_pixel(footprint, b - side));
+    float seen = dot(way, end.inward);
+    float lit = dot(light_way, end.inward);
+    float tip = plain ? abs(lean) * reach : (end.priority == BURIN_PRIORITY_NONE ? 0.0f : reach);
+    float back = max(max(seen, lit), 0.0f) + abs(seen) + (plain ? tip : 0.0f) + 1.0e-3f * reach;
+    float ahead = abs(seen) + tip + 1.0e-3f * reach;
+    vec2 side = end.normal * (reach + abs(dot(way, end.normal)));
+    vec2 a = end.vertex - place + end.inward * back;
+    vec2 b = end.vertex - place - end.inward * ahead;
+    vec2 p = burin_to_pixel(footprint, a - side);
+    vec2 q = burin_to_pixel(footprint, a + side);
+    vec2 r = burin_to_pixel(footprint, b + side);
+    vec2 s = burin_to_pixel(footprint, b - side);
+    if (burin_quad_area(p, q, r, s) < BURIN_LEAST_AREA) return 0u;
+    return burin_quad_mask(p, q, r, s);
 }
 
 // Where the element can show in the pixel; limits are empty where it cannot. `tips`: metres that its ends may reach on.
@@ -106,14 +111,13 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     if (!burin_end_is_plain(start)) tips.x = wide;
     if (!burin_end_is_plain(end)) tips.y = wide;
     BurinStretch stretch = burin_stretch_of(e, place, reach, tips);
-    vec2 light_way = light_slope * (shadows ? max(cell.lowest - cell.highest, 0.0f) : 0.0f);
     vec2 limits = stretch.limits;
     if (limits.y < limits.x) return;
     stretch.room = footprint.radius;
-    region.special = region.special | burin_end_mask(start, footprint, ray.slope, style.level, wide, reach.spread, lean.x,
-                                                         light_way);
-    region.special = region.special | burin_end_mask(end, footprint, ray.slope, style.level, wide, reach.spread, lean.y,
-                                                         light_way);
+    vec2 way = ray.slope * max(cell.lowest - cell.highest, 0.0f);
+    vec2 light_way = light_slope * (shadows ? max(cell.lowest - cell.highest, 0.0f) : 0.0f);
+    region.special = region.special | burin_end_mask(start, footprint, place, wide, lean.x, way, light_way) |
+                     burin_end_mask(end, footprint, place, wide, lean.y, way, light_way);
     uint mask = 0u;
     int pieces = burin_piece_count(e, limits, footprint.radius);
     float centre = stretch.middle;
@@ -133,9 +137,13 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     }
     // A ray that runs along a bend for long meets it elsewhere than the stripes are.
     float curvature = abs(burin_bend(e, stretch, ray.slope, light_slope).curvature);
-    if (curvature * reach.spread > BURIN_MOST_BEND) region.special = region.special | mask;
-    region.special = region.special | (region.covered & mask);
+    if (curvature * reach.spread > BURIN_MOST_BEND) region.special = 0xffffu;
+    // Features over each other; thin ones hardly are.
+    float area = region.strip_area;
+    region.strip_area = 0.0f;
+    if (area * region.covered_area > BURIN_LEAST_AREA) region.special = region.special | (region.covered & mask);
     region.covered = region.covered | mask;
+    region.covered_area = region.covered_area + area;
 }
 
 // Corners of the box, in cells, that the pixel passes between the drops.
@@ -157,7 +165,9 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
     region.ground = ground;
     region.covered = 0u;
     region.special = 0u;
-    vec4 box = burin_region_box(ray, footprint, burin_map.ground_range);
+    region.covered_area = 0.0f;
+    region.strip_area = 0.0f;
+    vec4 box = burin_region_box(ray, footprint, burin_map.drop_range);
     ivec2 low = ivec2(int(box.x), int(box.y));
     ivec2 sides = ivec2(int(box.z), int(box.w)) - low + ivec2(1, 1);
     bool inside = low.x >= 0 && low.y >= 0 && low.x + sides.x <= burin_map.cells.x && low.y + sides.y <= burin_map.cells.y;

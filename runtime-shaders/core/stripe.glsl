@@ -10,6 +10,8 @@ struct BurinRegion {
     vec3 ground;   // colour of lit ground
     uint covered;  // places (burin_quad_mask) that a feature or its shadow covers
     uint special;  // places that stripes do not describe: two features over each other, ends
+    float covered_area;  // sum of what the elements so far cover
+    float strip_area;    // the same of the element at hand
 };
 
 // The stretch. Parameters below 0 and above 1 lie on the tangents at the element's ends.
@@ -321,6 +323,8 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
         last = next;
     }
     uint mask = burin_strip_mask(first, far);
+    vec2 whole = vec2(1.0f, 1.0f);
+    region.strip_area = region.strip_area + burin_strip_area(first, far, whole * 0.0f, whole);
     if (shade.folded) region.special = region.special | mask;
     if (shade.folded || shade.beyond <= 0.0f) return mask;
     // Shadow on the ground behind the profile, as far as the profile does not hide it.
@@ -336,5 +340,6 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
     float area = burin_strip_area(near, rim, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
     vec3 color = burin_facet_color(vec3(0.0f, 0.0f, 1.0f), 0u, 0.0f);
     region.color = region.color + (color - region.ground) * area;
+    region.strip_area = region.strip_area + area;
     return mask | burin_strip_mask(near, rim);
 }

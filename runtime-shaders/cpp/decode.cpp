@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cpp/glsl_shim.hpp"
-#include "cpp/ground_range.hpp"
+#include "cpp/drop_range.hpp"
 #include "layout.h"
 
 namespace burin {
@@ -55,8 +55,8 @@ Core make_core(const PackedTextures& textures, const PathDetail& detail) {
     core.burin_map.size = vec2(float(detail.size_u), float(detail.size_v));
     core.burin_map.depth = float(detail.depth);
     core.burin_map.outer_level = float(detail.base_offset - detail.outer_level);
-    const std::array<float, 2> range = ground_range(textures, detail);
-    core.burin_map.ground_range = vec2(range[0], range[1]);
+    const std::array<float, 2> range = drop_range(textures, detail);
+    core.burin_map.drop_range = vec2(range[0], range[1]);
     core.burin_map.repeats = detail.repeat ? 1 : 0;
     core.burin_map.cells = ivec2(textures.grid_width, textures.grid_height);
     core.burin_map.first_style = int(textures.sections.styles_begin());

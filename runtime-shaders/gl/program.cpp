@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cpp/ground_range.hpp"
+#include "cpp/drop_range.hpp"
 #include "gl/shader_text.hpp"
 
 namespace burin::gl {
@@ -131,7 +131,7 @@ DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textur
       data_width_(textures.data_width),
       grid_width_(textures.grid_width),
       grid_height_(textures.grid_height),
-      ground_range_(ground_range(textures, detail)),
+      drop_range_(drop_range(textures, detail)),
       has_residual_(residual.width > 0) {
     names_[0] = make_texture(gl, GL_RG32UI, GL_RG_INTEGER, grid_width_, grid_height_, textures.grid, 2);
     names_[1] =
@@ -156,7 +156,7 @@ void DetailTextures::bind(const Program& program) const {
     program.set("burin_map.size", float(detail_.size_u), float(detail_.size_v));
     program.set("burin_map.depth", float(detail_.depth));
     program.set("burin_map.outer_level", float(detail_.base_offset - detail_.outer_level));
-    program.set("burin_map.ground_range", ground_range_[0], ground_range_[1]);
+    program.set("burin_map.drop_range", drop_range_[0], drop_range_[1]);
     program.set("burin_map.repeats", detail_.repeat ? 1 : 0);
     gl_.Uniform2i(program.at("burin_map.cells"), grid_width_, grid_height_);
     program.set("burin_map.first_style", int(sections_.styles_begin()));

@@ -58,7 +58,7 @@ class DetailTextures {
     Sections sections_;
     int data_width_;
     int grid_width_, grid_height_;
-    std::array<float, 2> ground_range_;
+    std::array<float, 2> drop_range_;
     bool has_residual_;
     GLuint names_[3] = {0, 0, 0};
 };
