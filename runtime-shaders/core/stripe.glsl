@@ -325,7 +325,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
     uint mask = burin_strip_mask(first, far);
     vec2 whole = vec2(1.0f, 1.0f);
     region.strip_area = region.strip_area + burin_strip_area(first, far, whole * 0.0f, whole);
-    if (shade.folded) region.special = region.special | mask;
+    if (shade.folded) region.special = 0xffffu;
     if (shade.folded || shade.beyond <= 0.0f) return mask;
     // Shadow on the ground behind the profile, as far as the profile does not hide it.
     float behind = same ? max(run.x - last.way.x * order, 0.0f) : 0.0f;

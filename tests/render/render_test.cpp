@@ -107,6 +107,7 @@ TEST(RenderAsset, LightAndShadowAsTheDecoderSays) {
         RenderOptions options;
         options.width = options.height = 96;
         options.samples = 1;
+        options.antialiasing = Antialiasing::points;
         options.camera.orthographic = true;
         options.camera.azimuth = 0;
         options.camera.elevation = 90;
@@ -139,6 +140,42 @@ TEST(RenderAsset, LightAndShadowAsTheDecoderSays) {
         EXPECT_GT(asked, 4000);
         EXPECT_LE(wrong, asked / 500) << "of " << asked << ", dark " << dark;
     }
+}
+
+// Root mean square of the difference of two pictures, in steps of 8 bits.
+double difference(const RgbaImage& a, const RgbaImage& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.texels.size(); ++i) {
+        const double d = double(a.texels[i]) - double(b.texels[i]);
+        sum += d * d;
+    }
+    return std::sqrt(sum / double(a.texels.size()));
+}
+
+// Features as areas against so many rays that their own error is small.
+TEST(RenderAsset, RegionsAreTheMeanOfRays) {
+    for (const Pattern& pattern : {crossing_pattern(), plateau_pattern(), overhang_pattern()})
+        for (const double elevation : {90.0, 50.0, 15.0}) {
+            RenderOptions options;
+            options.width = options.height = 48;
+            options.camera.azimuth = 20;
+            options.camera.elevation = elevation;
+            options.camera.zoom = elevation > 20.0 ? 3.0 : 8.0;  // no border of the plane: that is the mesh's, not the pattern's
+            options.backend = backend();
+            options.samples = 1;
+            const Asset plane = plane_with(prepare(pattern));
+            const auto regions = render_asset(plane, options);
+            SKIP_WITHOUT_CONTEXT(regions);
+            options.antialiasing = Antialiasing::points;
+            options.samples = 36;
+            const auto rays = render_asset(plane, options);
+            options.samples = 1;
+            const auto single = render_asset(plane, options);
+            ASSERT_TRUE(regions.ok() && rays.ok() && single.ok());
+            const double error = difference(*regions, *rays);
+            EXPECT_LT(error, 1.3) << "elevation " << elevation;
+            EXPECT_LT(error, 0.6 * difference(*single, *rays)) << "elevation " << elevation;
+        }
 }
 
 TEST(RenderAsset, ModelWithoutDetailIsShadedByItsMesh) {
