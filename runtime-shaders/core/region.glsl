@@ -157,8 +157,8 @@ vec4 burin_region_box(BurinRay ray, BurinFootprint footprint, vec2 drops) {
     return vec4(floor(low.x), floor(low.y), floor(high.x), floor(high.y));
 }
 
-// `ground` is the colour of lit ground. The ray passes the object surface at the pixel's centre. region.special is
-// all ones where the pixel is too large for its cells to be looked through.
+// `ground` is the colour of lit ground. The ray passes the object surface at the pixel's centre. Where fullness is 1 or
+// more the pixel spans too much to be looked through, and the rest says nothing.
 BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, vec3 ground) {
     BurinRegion region;
     region.color = vec3(0.0f, 0.0f, 0.0f);
@@ -171,7 +171,9 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
     ivec2 low = ivec2(int(box.x), int(box.y));
     ivec2 sides = ivec2(int(box.z), int(box.w)) - low + ivec2(1, 1);
     bool inside = low.x >= 0 && low.y >= 0 && low.x + sides.x <= burin_map.cells.x && low.y + sides.y <= burin_map.cells.y;
-    if (sides.x * sides.y > BURIN_MAX_REGION_CELLS || (burin_map.repeats == 0 && !inside)) {
+    region.fullness = float(sides.x * sides.y) / float(BURIN_MAX_REGION_CELLS);
+    if (region.fullness > 1.0f) return region;
+    if (burin_map.repeats == 0 && !inside) {
         region.special = 0xffffu;
         return region;
     }
@@ -198,7 +200,7 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
             }
             if (known) continue;
             if (count == BURIN_MAX_REGION_ELEMENTS) {
-                region.special = 0xffffu;
+                region.fullness = 1.0f;
                 return region;
             }
             seen[count] = reference;
@@ -207,5 +209,6 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
             burin_add_element(e, cell, ray, footprint, light_slope, shadows, region);
         }
     }
+    region.fullness = max(region.fullness, float(count) / float(BURIN_MAX_REGION_ELEMENTS));
     return region;
 }

@@ -12,6 +12,7 @@ struct BurinRegion {
     uint special;  // places that stripes do not describe: two features over each other, ends
     float covered_area;  // sum of what the elements so far cover
     float strip_area;    // the same of the element at hand
+    float fullness;      // how much of what a pixel may span it does: from 1 on there is no answer
 };
 
 // The stretch. Parameters below 0 and above 1 lie on the tangents at the element's ends.

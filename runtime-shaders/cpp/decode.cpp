@@ -47,6 +47,7 @@ class Core {
 #include "core/footprint.glsl"
 #include "core/stripe.glsl"
 #include "core/region.glsl"
+#include "core/far.glsl"
 };
 
 Core make_core(const PackedTextures& textures, const PathDetail& detail) {

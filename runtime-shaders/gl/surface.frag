@@ -72,6 +72,14 @@ vec4 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
         vec3 ground = burin_facet_color(vec3(0.0, 0.0, 1.0), 0u, light_above ? 1.0 : 0.0);
         BurinRegion region = burin_region(part_ray, burin_footprint(x, y), light_slope, shadows != 0 && light_above, ground);
         vec3 found = ground + region.color;
+        // From a pixel that spans many features to one that spans too many: the prefilter takes over by degrees.
+        float far = smoothstep(0.4, 0.9, region.fullness);
+        if (far > 0.0) {
+            vec2 place = part_ray.origin + part_ray.slope * level;
+            vec3 beyond = ground + far_color(place, ray.slope, light_slope, shadows != 0 && light_above, ground, uv_along_x, uv_along_y);
+            if (far >= 1.0 && part == 0) return vec4(beyond, 0.0);
+            found = mix(found, beyond, far);
+        }
         if (part == 0) {
             if (region.special == 0u) return vec4(found, 0.0);
             continue;
