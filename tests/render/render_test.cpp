@@ -178,6 +178,47 @@ TEST(RenderAsset, RegionsAreTheMeanOfRays) {
         }
 }
 
+// What an engine does in one run of the shader, and what suits a CPU.
+TEST(RenderAsset, OneRunDrawsTheSame) {
+    const Asset plane = plane_with(prepare(crossing_pattern()));
+    RenderOptions options;
+    options.width = options.height = 48;
+    options.samples = 1;
+    options.rays = 4;
+    options.backend = backend();
+    const auto runs = render_asset(plane, options);
+    SKIP_WITHOUT_CONTEXT(runs);
+    options.one_run = true;
+    const auto one = render_asset(plane, options);
+    ASSERT_TRUE(runs.ok() && one.ok());
+    for (std::size_t i = 0; i < runs->texels.size(); ++i) EXPECT_NEAR(runs->texels[i], one->texels[i], 1) << i;
+}
+
+// From where a cell is a few pixels to where a pixel is many cells.
+TEST(RenderAsset, MeanLightStaysFromFarAway) {
+    const PreparedPattern p = prepare(crossing_pattern());
+    const Asset plane = plane_with(p);
+    RenderOptions options;
+    options.camera.orthographic = true;
+    options.camera.elevation = 90;
+    options.camera.zoom = 1.5;
+    options.samples = 1;
+    options.backend = backend();
+    double first = 0.0;
+    for (const int side : {96, 24, 6, 3, 2, 1}) {
+        options.width = options.height = side;
+        const auto picture = render_asset(plane, options);
+        SKIP_WITHOUT_CONTEXT(picture);
+        ASSERT_TRUE(picture.ok()) << picture.error().message;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < picture->texels.size(); i += 4)
+            sum += std::pow((picture->texels[i] / 255.0 + 0.055) / 1.055, 2.4);
+        const double mean = sum / double(side * side);
+        if (first == 0.0) first = mean;
+        EXPECT_NEAR(mean / first, 1.0, 0.01) << side << " pixels";
+    }
+}
+
 TEST(RenderAsset, ModelWithoutDetailIsShadedByItsMesh) {
     const PreparedPattern p = prepare(crossing_pattern());
     RenderOptions options;
