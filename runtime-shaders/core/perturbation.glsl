@@ -127,6 +127,15 @@ BurinScales burin_scales(BurinElement e, float s) {
     return found;
 }
 
+// No width scale of the element is greater.
+float burin_widest(BurinElement e) {
+    float width = max(e.scales.x, e.scales.y);
+    if (!e.waved) return width;
+    if ((e.function.x & 3u) != BURIN_FUNCTION_POLYNOMIAL) return width * (1.0f + abs(burin_amplitudes(e.function).x));
+    vec4 w = abs(e.width_terms);
+    return width * min(w.x + w.y + w.z + w.w, 4.0f);
+}
+
 // A clip line that ends a feature on the path line of another one is turned by the rounding of its angle. The feature
 // runs on by what that can amount to at the rim, or a sheet of solid would stand between the two.
 float burin_clip_slack(BurinElement e, BurinStyle style) {
