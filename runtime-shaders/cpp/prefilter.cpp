@@ -1,6 +1,7 @@
 #include "cpp/prefilter.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -104,6 +105,11 @@ std::map<Kind, Sum> choose_classes(const std::vector<Piece>& pieces, std::vector
     return sums;
 }
 
+// A power of two: only then are the levels above exact means, whoever makes them.
+int block_count(int cells) {
+    return int(std::bit_floor(unsigned(std::clamp(cells / Prefilter::kCellsPerBlock, 1, 256))));
+}
+
 int wrap_block(double at, int count, bool repeat) {
     const int block = int(std::floor(at));
     return repeat ? ((block % count) + count) % count : std::clamp(block, 0, count - 1);
@@ -113,8 +119,8 @@ int wrap_block(double at, int count, bool repeat) {
 
 Prefilter prefilter_pattern(const PackedTextures& textures, const PathDetail& detail) {
     Prefilter filter;
-    filter.columns = std::clamp(textures.grid_width / Prefilter::kCellsPerBlock, 1, 256);
-    filter.rows = std::clamp(textures.grid_height / Prefilter::kCellsPerBlock, 1, 256);
+    filter.columns = block_count(textures.grid_width);
+    filter.rows = block_count(textures.grid_height);
     const std::vector<Piece> pieces = cut_elements(textures, detail, {1.0 / filter.columns, 1.0 / filter.rows});
     const std::map<Kind, Sum> sums = choose_classes(pieces, filter.classes);
     filter.weights.assign(filter.classes.size() * std::size_t(filter.columns) * std::size_t(filter.rows), 0.0f);

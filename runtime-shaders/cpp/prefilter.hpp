@@ -28,9 +28,9 @@ struct PrefilterClass {
 struct Prefilter {
     static constexpr int kDirections = 24;
     static constexpr int kMostClasses = 32;  // rare ones are counted as the kept class most like them
-    static constexpr int kCellsPerBlock = 2;
+    static constexpr int kCellsPerBlock = 2;  // at least, along each side
 
-    int columns = 0, rows = 0;  // blocks
+    int columns = 0, rows = 0;  // blocks, powers of two up to 256
     std::vector<PrefilterClass> classes;
     std::vector<float> weights;  // by class, then row, then column
     float weight(std::size_t which, int column, int row) const {
