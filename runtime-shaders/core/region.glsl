@@ -2,7 +2,7 @@
 // what is left is ground. Where two features lie over each other, and at ends that are no joints, the places of the pixel
 // are named instead, for the caller to ask ray by ray.
 
-// Radians that a path may turn while a ray falls through its profile.
+// Radians that a path may turn, or waves that its width may run through, while a ray falls through its profile.
 #define BURIN_MOST_BEND 0.35f
 // Part of the pixel that may be drawn as if the features in it did not know of each other.
 #define BURIN_LEAST_AREA 0.03f
@@ -83,6 +83,11 @@ BurinStretch burin_stretch_of(BurinElement e, vec2 place, BurinReachOf reach, ve
 
 // Pieces on which the part of a curve that a pixel spans counts as straight.
 int burin_piece_count(BurinElement e, vec2 limits, float radius) {
+    if (e.waved) {
+        // An eighth of a wave is nearly straight; what spans more of it than pieces tell apart is drawn in these.
+        float waves = abs(e.argument.y) * min(4.0f * radius / max(e.extent, 1.0e-20f), limits.y - limits.x);
+        return waves < 0.125f ? 1 : 8;
+    }
     if (!e.curved) return 1;
     vec2 t0 = burin_direction(burin_path_rate(e, limits.x), e.t0);
     vec2 t1 = burin_direction(burin_path_rate(e, limits.y), e.t2);
@@ -137,7 +142,8 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     }
     // A ray that runs along a bend for long meets it elsewhere than the stripes are.
     float curvature = abs(burin_bend(e, stretch, ray.slope, light_slope).curvature);
-    if (curvature * reach.spread > BURIN_MOST_BEND) region.special = 0xffffu;
+    float waves = e.waved ? abs(e.argument.y) * (reach.spread + footprint.radius) / max(e.extent, 1.0e-20f) : 0.0f;
+    if (max(curvature * reach.spread, waves) > BURIN_MOST_BEND) region.special = 0xffffu;
     // Features over each other; thin ones hardly are.
     float area = region.strip_area;
     region.strip_area = 0.0f;

@@ -97,7 +97,7 @@ BurinRail burin_thrown_rail(BurinElement e, BurinStyle style, BurinStretch stret
     ends.y = max(ends.x, ends.y);
     vec2 range = ends;
     rail.middle = burin_beside(e, slope * (rail.drop + thrown.below) - thrown.shift, stretch.middle);
-    if (e.curved) {
+    if (e.curved || e.waved) {
         // On the inner side of a bend the rail is shorter than the path.
         float room = 2.0f * stretch.room / length(burin_path_rate(e, rail.middle));
         range = clamp(vec2(rail.middle - room, rail.middle + room), vec2(ends.x, ends.x), vec2(ends.y, ends.y));
@@ -112,11 +112,11 @@ BurinRail burin_thrown_rail(BurinElement e, BurinStyle style, BurinStretch stret
     rail.last = rail.to;
     rail.at_first = range.x <= ends.x;
     rail.at_last = range.y >= ends.y;
-    if (e.curved && stretch.near_first && !rail.at_first) {
+    if ((e.curved || e.waved) && stretch.near_first && !rail.at_first) {
         vec3 end = burin_rail_end(e, style, stretch, footprint, slope, thrown, ends.x);
         rail.first = vec2(end.x, end.y);
     }
-    if (e.curved && stretch.near_last && !rail.at_last) {
+    if ((e.curved || e.waved) && stretch.near_last && !rail.at_last) {
         vec3 end = burin_rail_end(e, style, stretch, footprint, slope, thrown, ends.y);
         rail.last = vec2(end.x, end.y);
     }
@@ -172,7 +172,7 @@ vec3 burin_facet_normal(BurinElement e, BurinStyle style, BurinRail left, BurinR
     vec2 normal = burin_normal_of(burin_direction(rate, e.t0));
     vec3 across = vec3(normal * (right.b - left.b), left.drop - right.drop);
     vec3 along = vec3(rate, 0.0f);
-    if (e.scaled) {
+    if (e.scaled || e.waved) {
         float s = mix(left.middle, right.middle, at);
         vec2 scales = burin_scales_at(e, s);
         vec2 rates = burin_scales(e, s).rate / scales;
