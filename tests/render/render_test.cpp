@@ -154,7 +154,7 @@ double difference(const RgbaImage& a, const RgbaImage& b) {
 
 // Features as areas against so many rays that their own error is small.
 TEST(RenderAsset, RegionsAreTheMeanOfRays) {
-    for (const Pattern& pattern : {crossing_pattern(), plateau_pattern(), overhang_pattern()})
+    for (const Pattern& pattern : {crossing_pattern(), plateau_pattern(), overhang_pattern(), sine_pattern()})
         for (const double elevation : {90.0, 50.0, 15.0}) {
             RenderOptions options;
             options.width = options.height = 48;
