@@ -1,6 +1,8 @@
-// Writes burin's own height maps: patterns authored as vectors, rasterized by the library's evaluator.
+// Writes burin's own samples: patterns authored as vectors, as a height map and as scenes in glTF.
 //
-//     make_samples FOLDER        writes FOLDER/plate.png, 512 x 512, 16 bits
+//     make_samples FOLDER            writes FOLDER/plate.png, 512 x 512, 16 bits, rasterized by the library's evaluator
+//     make_samples FOLDER scenes     writes FOLDER/NAME.glb for every scene of scenes/
+//     make_samples FOLDER NAME       writes this one
 //
 // The plate has one of everything a pattern is made of: lines, arcs, a mitred zigzag, crossings, T-junctions, isolated
 // ends, and letters as plateaus with holes.
@@ -12,6 +14,8 @@
 #include <burin/image_io.hpp>
 #include <burin/rasterize.hpp>
 #include <burin/resolve.hpp>
+
+#include "write_scene.hpp"
 
 namespace {
 
@@ -166,13 +170,33 @@ int report(const std::string& message) {
     return 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    if (argc != 2) return report("usage: make_samples FOLDER");
+int write_plate(const std::string& folder) {
     const auto resolved = burin::resolve_pattern(make_plate());
     if (!resolved) return report(resolved.error().message);
     const burin::Image map = burin::rasterize_height(*resolved, 512, 512, {.samples = 8});
-    const auto written = burin::write_height(std::string(argv[1]) + "/plate.png", map);
+    const auto written = burin::write_height(folder + "/plate.png", map);
     return written ? 0 : report(written.error().message);
+}
+
+// `name`: one of the table, or "scenes" for all of them.
+int write_scenes(const std::string& folder, const std::string& name) {
+    bool any = false;
+    for (const burin::scenes::SceneEntry& entry : burin::scenes::scene_table()) {
+        if (name != "scenes" && name != entry.name) continue;
+        any = true;
+        const auto bytes = burin::scenes::write_scene(entry.make());
+        if (!bytes) return report(entry.name + (": " + bytes.error().message));
+        const std::string path = folder + "/" + entry.name + ".glb";
+        if (const auto written = burin::write_file(path, *bytes); !written) return report(written.error().message);
+        std::printf("%s: %zu bytes\n", path.c_str(), bytes->size());
+    }
+    return any ? 0 : report("no scene is called '" + name + "'");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc == 2) return write_plate(argv[1]);
+    if (argc == 3) return write_scenes(argv[1], argv[2]);
+    return report("usage: make_samples FOLDER [scenes | NAME]");
 }

@@ -139,6 +139,7 @@ Path scaled(const Path& path, const std::function<double(double)>& width, const 
             double tolerance) {
     const double whole = path_length(path);
     // Greatest distance of a function from its chord over [from, to].
+    const auto clamped = [](const std::function<double(double)>& f, double s) { return std::max(0.0, f(s)); };
     const auto off = [](const std::function<double(double)>& f, double from, double to) {
         double worst = 0.0;
         for (double k : {0.25, 0.5, 0.75})
@@ -161,10 +162,10 @@ Path scaled(const Path& path, const std::function<double(double)>& width, const 
         while (parts < 64 && !fits()) ++parts;
         for (int i = 0; i < parts; ++i) {
             Element part = part_of(e, double(i) / parts, double(i + 1) / parts);
-            part.width0 = width(begin + share * i / parts);
-            part.width1 = width(begin + share * (i + 1) / parts);
-            part.height0 = height(begin + share * i / parts);
-            part.height1 = height(begin + share * (i + 1) / parts);
+            part.width0 = clamped(width, begin + share * i / parts);
+            part.width1 = clamped(width, begin + share * (i + 1) / parts);
+            part.height0 = clamped(height, begin + share * i / parts);
+            part.height1 = clamped(height, begin + share * (i + 1) / parts);
             // Neighbours are copies of each other where they meet.
             if (!result.elements.empty()) part.p0 = result.elements.back().p2;
             result.elements.push_back(part);
@@ -180,7 +181,7 @@ Path with_sine(const Path& path, double width_amplitude, double height_amplitude
     const auto wave = [=](double amplitude) {
         return [=](double s) { return 1.0 + amplitude * std::sin(2.0 * kPi * waves * s); };
     };
-    return scaled(path, wave(width_amplitude), wave(height_amplitude), 0.03);
+    return scaled(path, wave(width_amplitude), wave(height_amplitude), 0.06);
 }
 
 }  // namespace burin::scenes

@@ -66,7 +66,7 @@ Profile scratch(double half, double deep, double lip);    // seven points, uneve
 Profile rail(double foot, double head, double high);      // wider above than below
 Profile undercut(double mouth, double floor, double deep);
 Profile rise(double half, double high);                   // step up from left to right
-Profile moulding(double half, double high);               // step up with an edge and a small overhang of none
+Profile moulding(double half, double high);               // step up with a ledge before it
 
 // Chance, the same on every machine.
 class Chance {
@@ -80,9 +80,9 @@ class Chance {
     std::mt19937_64 engine_;
 };
 
-// Outlines of a line of capitals `height` high from the upper left corner `at`, plateaus on their right side: bodies
-// clockwise on screen, holes the other way. Known: A B E G I L N O R S T U V and space.
-std::vector<Stroke> outlines(std::string_view text, double height, Vec2 at);
+// Outlines of a line of capitals `height` high from the upper left corner `at`, as step paths with the letter on their
+// right side: bodies clockwise on screen, holes the other way. Known: A B E G I L N O R S T U V and space.
+std::vector<Path> outlines(std::string_view text, double height, Vec2 at, std::uint32_t profile);
 double width_of(std::string_view text, double height);
 
 }  // namespace burin::scenes

@@ -33,6 +33,7 @@ struct Part {
     std::array<float, 3> color = {0.8f, 0.8f, 0.8f};  // linear
     float metallic = 0.0f;
     float roughness = 0.5f;
+    double erosion = 0.0;  // greatest slope of the grain that a residual adds, metres per metre; 0: none
 };
 
 // Where to look from, in degrees, as `burin render` takes them.
