@@ -27,6 +27,10 @@ const std::vector<Configuration>& configurations();
 void ask_hits(const Settings& settings);
 void ask_pictures(const Settings& settings);
 void ask_memory(const Settings& settings);
+void ask_flicker(const Settings& settings);
+void ask_energy(const Settings& settings);
+void ask_features(const Settings& settings);
+void ask_grid(const Settings& settings);
 
 // Calls visit for every flat subject that the settings name; says so where a stage refuses one.
 void for_each_subject(const Settings& settings, const std::function<void(const Subject&)>& visit, bool flat_only = true);

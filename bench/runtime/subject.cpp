@@ -45,12 +45,16 @@ Vec2 focus_of(const ResolvedPattern& pattern) {
 
 }  // namespace
 
-Result<Subject> prepare_subject(const scenes::SceneEntry& entry, std::size_t part) {
+Result<Subject> prepare_subject(const scenes::SceneEntry& entry, std::size_t part, const GridOptions& grid) {
+    return prepare_subject(entry.name, entry.make(), part, grid);
+}
+
+Result<Subject> prepare_subject(const std::string& name, scenes::Scene scene, std::size_t part, const GridOptions& grid) {
     Subject subject;
-    subject.scene = entry.make();
+    subject.scene = std::move(scene);
     subject.index = part;
-    subject.name = subject.scene.parts.size() > 1 ? entry.name + (": " + subject.part().name) : entry.name;
-    auto prepared = testing::prepare_pattern(subject.part().pattern);
+    subject.name = subject.scene.parts.size() > 1 ? name + ": " + subject.part().name : name;
+    auto prepared = testing::prepare_pattern(subject.part().pattern, grid);
     if (!prepared) return prepared.error();
     subject.prepared = std::move(*prepared);
     subject.width = mean_width(subject.prepared.resolved);
@@ -99,9 +103,8 @@ PlaneCamera camera_of(const PlaneView& view, Vec2 size) {
     return camera;
 }
 
-Extent extent_of(const PlaneView& view, const ResolvedPattern& pattern) {
+Extent extent_of(const PlaneView& view, const ResolvedPattern& pattern, double most_tiles) {
     if (pattern.wrap == Wrap::clamp) return {{0, 0}, {1, 1}};
-    constexpr double kMostTiles = 64.0;
     const PlaneCamera camera = camera_of(view, pattern.size);
     Extent extent{{0, 0}, {1, 1}};
     for (const double x : {-1.0, 1.0})
@@ -115,8 +118,8 @@ Extent extent_of(const PlaneView& view, const ResolvedPattern& pattern) {
             extent.low = {std::min(extent.low.x, std::floor(u)), std::min(extent.low.y, std::floor(v))};
             extent.high = {std::max(extent.high.x, std::ceil(u)), std::max(extent.high.y, std::ceil(v))};
         }
-    extent.low = {std::max(extent.low.x, -kMostTiles), std::max(extent.low.y, -kMostTiles)};
-    extent.high = {std::min(extent.high.x, kMostTiles), std::min(extent.high.y, kMostTiles)};
+    extent.low = {std::max(extent.low.x, -most_tiles), std::max(extent.low.y, -most_tiles)};
+    extent.high = {std::min(extent.high.x, most_tiles), std::min(extent.high.y, most_tiles)};
     return extent;
 }
 

@@ -12,7 +12,7 @@
 
 namespace burin::bench {
 
-// One part of a scene, on the plane of its own size.
+// One part of a scene, taken onto the plane of its own size.
 struct Subject {
     std::string name;
     scenes::Scene scene;
@@ -22,7 +22,8 @@ struct Subject {
     double width = 0.0;  // metres: mean width of the features, by length of path
     Vec2 focus;          // metres: the junction nearest to the middle, or else a place on a path
 };
-Result<Subject> prepare_subject(const scenes::SceneEntry& entry, std::size_t part = 0);
+Result<Subject> prepare_subject(const scenes::SceneEntry& entry, std::size_t part = 0, const GridOptions& grid = {});
+Result<Subject> prepare_subject(const std::string& name, scenes::Scene scene, std::size_t part = 0, const GridOptions& grid = {});
 
 // A perspective view of the plane, the same for the renderer and the truth.
 struct PlaneView {
@@ -49,11 +50,12 @@ struct PlaneCamera {
 };
 PlaneCamera camera_of(const PlaneView& view, Vec2 size);
 
-// The rectangle of whole tiles (of one tile when the map is clamped) that a view is drawn on, in uv.
+// The rectangle of whole tiles (of one tile when the map is clamped) that a view is drawn on, in uv. It ends
+// `most_tiles` from the origin.
 struct Extent {
     Vec2 low, high;
 };
-Extent extent_of(const PlaneView& view, const ResolvedPattern& pattern);
+Extent extent_of(const PlaneView& view, const ResolvedPattern& pattern, double most_tiles = 64.0);
 
 // The subject's textures on that rectangle.
 Asset asset_of(const Subject& subject, const Extent& extent);

@@ -45,12 +45,12 @@ Scene make_intersected_end() {
 // Every cap there is, on a groove and on a ridge.
 Scene make_isolated_end() {
     Pattern p = small_sheet();
-    p.profiles = {trough(0.0034, 0.0014, 0.0030), ridge(0.0034, 0.0014, 0.0020)};
+    p.profiles = {trough(0.0026, 0.0010, 0.0026), ridge(0.0026, 0.0010, 0.0018)};
     const CapKind caps[] = {CapKind::hip, CapKind::butt, CapKind::round, CapKind::taper};
     for (int i = 0; i < 4; ++i)
         for (std::uint32_t profile = 0; profile < 2; ++profile) {
-            const double y = 0.010 + 0.0133 * i, x = 0.008 + 0.030 * profile;
-            Path path = polyline({{x, y}, {x + 0.014, y + 0.001}}).path(profile);
+            const double y = 0.010 + 0.0133 * i, x = 0.0125 + 0.028 * profile;
+            Path path = polyline({{x, y}, {x + 0.006, y + 0.001}}).path(profile);
             path.start_cap = path.end_cap = caps[i];
             p.paths.push_back(path);
         }

@@ -16,7 +16,7 @@ Scene make_scratched_sphere() {
     Chance chance(2500);
     const auto pressure = [](double s) { return std::min(1.0, 5.0 * std::min(s, 1.0 - s)); };
     for (int i = 0; i < 420; ++i) {
-        const Vec2 middle{chance.uniform() * size.x, chance.between(0.06, 0.94) * size.y};
+        const Vec2 middle{chance.uniform() * size.x, chance.between(0.14, 0.86) * size.y};
         const double heading = chance.between(0.0, 2.0 * kPi), span = chance.between(0.05, 0.16), bend = chance.between(-1.1, 1.1);
         const auto at = [=](double s) {
             const double along = (s - 0.5) * span, angle = heading + bend * (s - 0.5);
@@ -83,11 +83,11 @@ void add_scrolls(Engraver& engraver) {
         for (int column = 0; column < 3; ++column) {
             const Vec2 centre{0.0625 + kCell * column, 0.0725 + kCell * row};
             const double hand = (row + column) % 2 == 0 ? 1.0 : -1.0, angle = kPi / 2 * hand;
-            engraver.twice(volute(centre, 0.0145, angle, hand));
+            engraver.twice(volute(centre, 0.0158, angle, hand));
             for (int k = 0; k < 5; ++k) {
-                const double a = angle + hand * (0.5 + 1.22 * k), r = 0.0128 - 0.0009 * k;
+                const double a = angle + hand * (0.5 + 1.22 * k), r = 0.0140 - 0.0010 * k;
                 const Vec2 out{std::cos(a), std::sin(a)}, on{-std::sin(a) * hand, std::cos(a) * hand};
-                add_leaf(engraver, centre + out * r, out * 0.0050 + on * 0.0040, 0.10 * hand);
+                add_leaf(engraver, centre + out * r, out * 0.0060 + on * 0.0080, 0.16 * hand);
             }
         }
     for (int column = 0; column < 4; ++column) {
@@ -145,13 +145,13 @@ void add_hatching(Engraver& engraver) {
 // A breastplate's field: scrolls with leaves and stems, mirrored, rosettes in the middle, a braided border.
 Scene make_engraved_armour() {
     Pattern p = sheet(kPlate, 0.0014, 0.0, Wrap::clamp);
-    p.profiles = {trough(0.0017, 0.0009, 0.0012), vee(0.00095, 0.0010), vee(0.00055, 0.0006), vee(0.00032, 0.0004)};
+    p.profiles = {trough(0.0019, 0.0009, 0.0012), vee(0.00125, 0.0011), vee(0.00075, 0.0007), vee(0.0004, 0.0004)};
     Engraver engraver(p);
     add_frame(engraver);
     add_scrolls(engraver);
     for (int k = 0; k < 8; ++k) add_rosette(engraver, {0.2, 0.0725 + 0.0507 * k}, 0.0205);
     add_hatching(engraver);
-    return on_plane(std::move(p), {0.56f, 0.55f, 0.53f}, 1.0f, 0.35f);
+    return on_plane(std::move(p), {0.66f, 0.62f, 0.56f}, 0.5f, 0.42f);
 }
 
 }  // namespace burin::scenes

@@ -93,7 +93,7 @@ Scene make_tapered_cracks() {
 Scene make_letters() {
     Pattern p = sheet({0.24, 0.2}, 0.0010, 0.0026, Wrap::clamp);
     p.profiles = {moulding(0.0006, 0.0024), trough(0.0016, 0.0008, 0.0008)};
-    const char* lines[] = {"ARS LONGA", "VITA BREVIS", "ET SIGNA", "BURINO INSTAR", "SAXI TENENT"};
+    const char* lines[] = {"ARS LONGA", "VITA BREVIS", "ET SIGNA", "BURINO INSTAR", "ARTE TENENT"};
     double y = 0.018;
     for (const char* line : lines) {
         const double high = 0.0235, width = width_of(line, high), fit = std::min(1.0, 0.208 / width);
