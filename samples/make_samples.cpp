@@ -178,17 +178,28 @@ int write_plate(const std::string& folder) {
     return written ? 0 : report(written.error().message);
 }
 
+// One line: name, source, elements, bytes of textures and file, and the options with which `burin render` shows it.
+void print_scene(const burin::scenes::SceneEntry& entry, const burin::scenes::Scene& scene, const burin::scenes::SceneFile& file) {
+    const burin::scenes::View& view = scene.view;
+    std::printf("%s; %s; %zu; %zu; %zu; --azimuth %g --elevation %g --zoom %g --light %g,%g", entry.name, entry.source, file.elements,
+                file.texture_bytes, file.bytes.size(), view.azimuth, view.elevation, view.zoom, view.light_azimuth,
+                view.light_elevation);
+    if (view.center) std::printf(" --center %g,%g", view.center->x, view.center->y);
+    std::printf("\n");
+}
+
 // `name`: one of the table, or "scenes" for all of them.
 int write_scenes(const std::string& folder, const std::string& name) {
     bool any = false;
     for (const burin::scenes::SceneEntry& entry : burin::scenes::scene_table()) {
         if (name != "scenes" && name != entry.name) continue;
         any = true;
-        const auto bytes = burin::scenes::write_scene(entry.make());
-        if (!bytes) return report(entry.name + (": " + bytes.error().message));
+        const burin::scenes::Scene scene = entry.make();
+        const auto file = burin::scenes::write_scene(scene);
+        if (!file) return report(entry.name + (": " + file.error().message));
         const std::string path = folder + "/" + entry.name + ".glb";
-        if (const auto written = burin::write_file(path, *bytes); !written) return report(written.error().message);
-        std::printf("%s: %zu bytes\n", path.c_str(), bytes->size());
+        if (const auto written = burin::write_file(path, file->bytes); !written) return report(written.error().message);
+        print_scene(entry, scene, *file);
     }
     return any ? 0 : report("no scene is called '" + name + "'");
 }

@@ -46,6 +46,7 @@ struct Packed {
     PackedTextures textures;
     PathDetail detail;
     Fallback fallback;
+    std::size_t elements = 0;
 };
 
 Result<Packed> pack_part(const Pattern& pattern) {
@@ -61,15 +62,16 @@ Result<Packed> pack_part(const Pattern& pattern) {
     Packed packed;
     packed.detail = describe_pattern(*resolved, *textures);
     packed.textures = std::move(*textures);
+    packed.elements = resolved->elements.size();
     packed.fallback = bake_fallback(heights, resolved->size, resolved->depth, resolved->wrap);
     return packed;
 }
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> write_scene(const Scene& scene) {
+Result<SceneFile> write_scene(const Scene& scene) {
     Model model = model_of(scene);
-    std::vector<std::uint8_t> bytes;
+    SceneFile file;
     for (const Part& part : scene.parts) {
         const auto packed = pack_part(part.pattern);
         if (!packed) return Error{packed.error().code, part.name + ": " + packed.error().message};
@@ -82,12 +84,14 @@ Result<std::vector<std::uint8_t>> write_scene(const Scene& scene) {
         }
         auto glb = write_glb(model, packed->textures, packed->detail, packed->fallback, {.material = part.name}, residual);
         if (!glb) return glb.error();
-        bytes = std::move(*glb);
-        auto again = read_model_bytes(bytes, "");
+        file.bytes = std::move(*glb);
+        file.elements += packed->elements;
+        file.texture_bytes += 4 * (packed->textures.grid.size() + packed->textures.data.size());
+        auto again = read_model_bytes(file.bytes, "");
         if (!again) return again.error();
         model = std::move(*again);
     }
-    return bytes;
+    return file;
 }
 
 }  // namespace burin::scenes

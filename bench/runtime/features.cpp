@@ -66,8 +66,8 @@ Result<Sheet> make_sheet(int side, int tiles, const PlaneView& view) {
 
 void ask_features(const Settings& settings) {
     std::printf("\n### Cost against the number of features\n\nThe same view, as many grooves seen: processor time and work of a pixel with its shadow ray.\n\n"
-                "| grooves | materials | MB | ns per pixel | over the first | cells | lists | elements | styles | profiles |\n"
-                "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+                "| grooves | materials | MB | cell mm | ns per pixel | over the first | cells | lists | elements | styles | profiles |\n"
+                "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     struct Row {
         int side, tiles;
     };
@@ -91,8 +91,8 @@ void ask_features(const Settings& settings) {
         const double time = seconds_per_pass(sheet->asset, options, settings.quick ? 2 : 5) / (view.width * view.height) * 1e9;
         if (first == 0.0) first = time;
         const PixelWork work = work_of(sheet->subject, view);
-        std::printf("| %d | %d | %.2f | %.0f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", row.side * row.side * row.tiles * row.tiles,
-                    row.tiles * row.tiles, sheet->bytes / 1e6, time, time / first, work.cells, work.lists, work.elements, work.styles, work.profiles);
+        std::printf("| %d | %d | %.2f | %.2f | %.0f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", row.side * row.side * row.tiles * row.tiles,
+                    row.tiles * row.tiles, sheet->bytes / 1e6, row.side * kSpacing * 1e3 / sheet->subject.prepared.textures.grid_width, time, time / first, work.cells, work.lists, work.elements, work.styles, work.profiles);
         std::fflush(stdout);
     }
 }

@@ -63,7 +63,9 @@ Vec2 aim(const ResolvedPattern& pattern, double width, int i, scenes::Chance& ch
         const Junction& junction = pattern.junctions[std::size_t(chance.below(int(pattern.junctions.size())))];
         return junction.position + direction(chance) * (width * chance.uniform());
     }
-    if (i % 4 == 3 || pattern.elements.empty()) return {chance.uniform() * pattern.size.x, chance.uniform() * pattern.size.y};
+    // Anywhere: a quarter of the tile beyond its borders, too, where a ray wraps, or comes onto a map from outside.
+    if (i % 4 == 3 || pattern.elements.empty())
+        return {chance.between(-0.25, 1.25) * pattern.size.x, chance.between(-0.25, 1.25) * pattern.size.y};
     const ResolvedElement& e = pattern.elements[std::size_t(chance.below(int(pattern.elements.size())))];
     return point_on(e.element, chance.between(-0.05, 1.05)) + direction(chance) * (reach_of(pattern, e) * 1.2 * chance.uniform());
 }

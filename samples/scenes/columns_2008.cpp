@@ -65,7 +65,7 @@ void draw_sign(const Scribe& s, int sign) {
 
 Pattern hieroglyphs() {
     const Vec2 size{2.0 * kPi * kRadius, kHigh};
-    Pattern p = sheet(size, 0.012, 0.004);
+    Pattern p = sheet(size, 0.0145, 0.004);
     p.profiles = {trough(0.0075, 0.003, 0.007), ridge(0.012, 0.006, 0.0035), {{{-0.005, 0}, {0, -0.003}, {0.005, -0.006}}, {}}};
     for (const double y : {0.05, 0.09, 1.11, 1.15}) p.paths.push_back(Stroke({0.0, y}).line({size.x, y}).close_across().path(kBand));
     Chance chance(1799);
@@ -108,8 +108,9 @@ Scene make_columns() {
     for (float& value : floor.uvs) value *= 3.0f;
     scene.parts.push_back({"floor", paving(), std::move(floor), {0.55f, 0.50f, 0.44f}, 0.0f, 0.8f});
     scene.parts.front().erosion = 0.10;
-    scene.view.elevation = 16.0;
+    scene.view.elevation = 12.0;
     scene.view.azimuth = 8.0;
+    scene.view.zoom = 1.9;
     return scene;
 }
 

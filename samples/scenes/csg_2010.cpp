@@ -9,7 +9,8 @@ Pattern small_sheet() { return sheet({0.06, 0.06}, 0.0050, 0.0025, Wrap::clamp);
 
 Scene show(Pattern pattern) {
     Scene scene = on_plane(std::move(pattern), {0.55f, 0.60f, 0.68f}, 0.0f, 0.45f);
-    scene.view.elevation = 45.0;
+    scene.view.elevation = 48.0;
+    scene.view.zoom = 1.35;
     return scene;
 }
 

@@ -151,7 +151,9 @@ Scene make_engraved_armour() {
     add_scrolls(engraver);
     for (int k = 0; k < 8; ++k) add_rosette(engraver, {0.2, 0.0725 + 0.0507 * k}, 0.0205);
     add_hatching(engraver);
-    return on_plane(std::move(p), {0.66f, 0.62f, 0.56f}, 0.5f, 0.42f);
+    Scene scene = on_plane(std::move(p), {0.66f, 0.62f, 0.56f}, 0.5f, 0.42f);
+    scene.view = {.azimuth = 8.0, .elevation = 55.0, .zoom = 3.0, .center = Vec2{0.38, 0.3}};
+    return scene;
 }
 
 }  // namespace burin::scenes

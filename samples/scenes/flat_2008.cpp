@@ -17,6 +17,7 @@ Scene make_parallel_grooves() {
     }
     Scene scene = on_plane(std::move(p), {0.75f, 0.45f, 0.25f}, 0.0f, 0.45f);
     scene.view.azimuth = 60.0;
+    scene.view.zoom = 1.8;
     return scene;
 }
 
@@ -39,6 +40,7 @@ Scene make_crossing_scratches() {
         }
     Scene scene = on_plane(std::move(p), {0.6f, 0.62f, 0.65f}, 0.9f, 0.35f);
     scene.view.azimuth = 20.0;
+    scene.view.zoom = 2.0;
     return scene;
 }
 

@@ -14,9 +14,10 @@ Scene make_sine_path() {
         const double a = 2.0 * kPi * s, r = 0.070 + 0.034 * std::cos(7.0 * a);
         return Vec2{0.12 + r * std::cos(2.0 * a), 0.12 + r * std::sin(2.0 * a)};
     };
-    p.paths.push_back(with_sine(smooth(at, 70).close().path(0), 0.42, 0.42, 0.017));
+    p.paths.push_back(with_sine(smooth(at, 63).close().path(0), 0.42, 0.42, 0.017));
     Scene scene = on_plane(std::move(p), {0.80f, 0.72f, 0.55f}, 0.0f, 0.5f);
     scene.view.elevation = 60.0;
+    scene.view.zoom = 1.35;
     return scene;
 }
 
@@ -34,6 +35,7 @@ Scene make_overhang() {
         p.paths.push_back(circle(centre, 0.026).path(1));
     Scene scene = on_plane(std::move(p), {0.75f, 0.66f, 0.52f}, 0.0f, 0.5f);
     scene.view.elevation = 40.0;
+    scene.view.zoom = 1.8;
     return scene;
 }
 
@@ -42,7 +44,9 @@ Scene make_sunken_square() {
     // Clockwise on screen: the inside is to the right, and lower.
     p.profiles = {{{{-0.004, 0}, {0, -0.003}, {0.002, -0.009}, {0.004, -0.009}}, {}}};
     p.paths.push_back(polygon({{0.025, 0.025}, {0.075, 0.025}, {0.075, 0.075}, {0.025, 0.075}}).path(0));
-    return on_plane(std::move(p), {0.65f, 0.25f, 0.2f}, 0.0f, 0.4f);
+    Scene scene = on_plane(std::move(p), {0.65f, 0.25f, 0.2f}, 0.0f, 0.4f);
+    scene.view.zoom = 1.35;
+    return scene;
 }
 
 namespace {
@@ -86,7 +90,10 @@ Scene make_tapered_cracks() {
     grower.grow({0.196, 0.10}, kPi + 0.15, 0.15, 0.9, 2);
     grower.grow({0.052, 0.196}, -1.1, 0.15, 0.85, 2);
     grower.grow({0.150, 0.004}, 1.9, 0.08, 0.7, 1);
-    return on_plane(std::move(p), {0.58f, 0.52f, 0.46f}, 0.0f, 0.8f);
+    Scene scene = on_plane(std::move(p), {0.58f, 0.52f, 0.46f}, 0.0f, 0.8f);
+    scene.view.azimuth = 10.0;
+    scene.view.zoom = 1.5;
+    return scene;
 }
 
 // An inscription that stands out of its slab, in a frame.
@@ -103,6 +110,7 @@ Scene make_letters() {
     p.paths.push_back(slab({0.12, 0.1}, {0.114, 0.094}, 0.008).path(1));
     Scene scene = on_plane(std::move(p), {0.72f, 0.70f, 0.66f}, 0.0f, 0.7f);
     scene.view.azimuth = 10.0;
+    scene.view.zoom = 1.25;
     return scene;
 }
 

@@ -142,7 +142,8 @@ Scene make_house() {
     scene.parts.push_back({"windows", panes(), std::move(windows), {0.82f, 0.82f, 0.78f}, 0.0f, 0.4f});
     scene.parts.push_back({"yard", cobbles(), quad({-4, 0, -3.5}, {8, 0, 0}, {0, 0, 7}, {1.2, 1.2}), {0.42f, 0.42f, 0.40f}, 0.0f, 0.8f});
     scene.view.azimuth = 32.0;
-    scene.view.elevation = 18.0;
+    scene.view.elevation = 14.0;
+    scene.view.zoom = 1.8;
     scene.view.light_azimuth = -20.0;
     return scene;
 }
