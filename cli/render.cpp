@@ -73,6 +73,8 @@ RenderOptions render_options(const Arguments& arguments) {
     options.light.elevation = light[1];
     options.shadows = !arguments.flag("--no-shadows");
     options.samples = arguments.integer("--samples");
+    options.antialiasing = arguments.text("--antialiasing") == "points" ? Antialiasing::points : Antialiasing::regions;
+    options.rays = arguments.integer("--rays");
     options.backend = backend_of(arguments);
     return options;
 }

@@ -14,9 +14,12 @@ namespace burin::bench {
 
 const std::vector<Configuration>& configurations() {
     static const std::vector<Configuration> list = {
-        {"1 sample", [](RenderOptions& options) { options.samples = 1; }},
-        {"4 samples", [](RenderOptions& options) { options.samples = 4; }},
-        {"16 samples", [](RenderOptions& options) { options.samples = 16; }},
+        {"points 1", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 1; }},
+        {"points 4", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 4; }},
+        {"points 16", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 16; }},
+        {"regions, 4 rays", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 1, o.rays = 4; }},
+        {"regions, 16 rays", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 1, o.rays = 16; }},
+        {"regions 4", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 4, o.rays = 16; }},
     };
     return list;
 }

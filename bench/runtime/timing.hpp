@@ -7,7 +7,7 @@
 
 namespace burin::bench {
 
-// Seconds of processor time that one sample of every pixel takes, the least of `repeats`: what four samples take beyond
+// Seconds of processor time that one ray for every pixel, with its shadow, takes, the least of `repeats`: what four samples take beyond
 // one, so that loading and building the program do not count. Below 0 where nothing could be drawn.
 double seconds_per_pass(const Asset& asset, RenderOptions options, int repeats);
 

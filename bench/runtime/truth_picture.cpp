@@ -133,7 +133,8 @@ TruthSample TruthScene::sample(double x, double y) const {
     const bool lit = faces && !in_shadow(hit);
     sample.color = shade(n, {-way[0], -way[1], -way[2]}, hit.element, lit);
     sample.feature = hit.element != kGround || hit.facet != kGround;
-    sample.what = 1 + ((std::uint64_t{hit.element} << 20) ^ (std::uint64_t{hit.facet} << 2) ^ (lit ? 2u : 0u));
+    // Neighbours along a path that look alike are alike: the element itself does not count.
+    sample.what = 1 + ((std::uint64_t{hit.facet} << 2) ^ (hit.element == kGround ? 1u : 0u) ^ (lit ? 2u : 0u));
     return sample;
 }
 
@@ -167,13 +168,21 @@ Pixel draw_pixel(const TruthScene& scene, int x, int y, int side) {
 
 constexpr double kEven = 0.004;  // samples within this of each other are averaged as they are
 
-bool needs_more(const std::vector<Pixel>& pixels, int width, int height, int x, int y) {
+bool is_uneven(const Pixel& pixel) { return pixel.uneven || pixel.high - pixel.low > kEven; }
+
+// Whether a thing too small for the first samples may stand here: something else begins beside the pixel.
+bool has_other_neighbour(const std::vector<Pixel>& pixels, int width, int height, int x, int y) {
     const Pixel& own = pixels[std::size_t(y * width + x)];
-    if (own.uneven || own.high - own.low > kEven) return true;
     for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
         for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i)
             if (pixels[std::size_t(j * width + i)].what != own.what) return true;
     return false;
+}
+
+Pixel refine_pixel(const TruthScene& scene, const std::vector<Pixel>& few, const PlaneView& view, int x, int y) {
+    Pixel pixel = few[std::size_t(y * view.width + x)];
+    if (!is_uneven(pixel) && has_other_neighbour(few, view.width, view.height, x, y)) pixel = draw_pixel(scene, x, y, 8);
+    return is_uneven(pixel) ? draw_pixel(scene, x, y, 16) : pixel;
 }
 
 TruthPicture draw_anew(const Subject& subject, const PlaneView& view) {
@@ -184,7 +193,7 @@ TruthPicture draw_anew(const Subject& subject, const PlaneView& view) {
     const auto y_of = [&](std::size_t i) { return int(i) / view.width; };
     testing::in_parallel(count, [&](std::size_t i) { few[i] = draw_pixel(scene, x_of(i), y_of(i), 4); });
     testing::in_parallel(count, [&](std::size_t i) {
-        all[i] = needs_more(few, view.width, view.height, x_of(i), y_of(i)) ? draw_pixel(scene, x_of(i), y_of(i), 16) : few[i];
+        all[i] = refine_pixel(scene, few, view, x_of(i), y_of(i));
     });
     TruthPicture picture{view.width, view.height, {}, {}};
     for (const Pixel& pixel : all) {

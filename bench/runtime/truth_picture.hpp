@@ -16,7 +16,7 @@ struct TruthPicture {
 // What one sample sees.
 struct TruthSample {
     std::array<double, 3> color;  // linear, clamped to [0, 1] as the shader's are
-    std::uint64_t what = 0;       // equal for samples of one facet in the same light
+    std::uint64_t what = 0;       // equal for samples of like facets in the same light
     bool feature = false;         // met something that is not the ground
 };
 
@@ -41,8 +41,8 @@ class TruthScene {
     std::array<double, 3> light_;  // towards it
 };
 
-// 16 samples in every pixel; 256 in those whose samples, or whose neighbours', do not all see the same facet in the
-// same light. `cache`: folder of pictures drawn before, "" for none. Cost: about 10 us a sample and core.
+// 16 samples in every pixel, 64 beside something else, and 256 where these do not all see facets of one kind in the same light
+// and colour. `cache`: folder of pictures drawn before, "" for none. Cost: about 10 us a sample and core.
 TruthPicture draw_truth(const Subject& subject, const PlaneView& view, const std::string& cache);
 
 double to_srgb(double linear);

@@ -143,11 +143,32 @@ bool burin_has_beyond(BurinEnd end, float side, bool curved, bool flank) {
     return burin_own_sector(end, side) && end.shape != BURIN_CORNER_MITRE;
 }
 
-bool burin_has_part(BurinEnd start, BurinEnd end, int part, float side, bool curved) {
-    if (part == BURIN_PART_MAIN) return true;
-    bool flank = part == BURIN_PART_START_FLANK || part == BURIN_PART_END_FLANK;
-    if (part <= BURIN_PART_START_FLANK) return burin_has_beyond(start, side, curved, flank);
-    return burin_has_beyond(end, side, curved, flank);
+// Bit 2 * part + (0: left, 1: right) of every part that the element has on the sides asked for.
+uint burin_parts_of(BurinEnd start, BurinEnd end, bool left, bool right, bool curved) {
+    uint parts = 0u;
+    for (int k = 0; k < 2; ++k) {
+        if (!(k == 0 ? left : right)) continue;
+        float side = k == 0 ? -1.0f : 1.0f;
+        uint found = 1u << uint(2 * BURIN_PART_MAIN);
+        if (burin_has_beyond(start, side, curved, false)) found = found | (1u << uint(2 * BURIN_PART_START));
+        if (burin_has_beyond(start, side, curved, true)) found = found | (1u << uint(2 * BURIN_PART_START_FLANK));
+        if (burin_has_beyond(end, side, curved, false)) found = found | (1u << uint(2 * BURIN_PART_END));
+        if (burin_has_beyond(end, side, curved, true)) found = found | (1u << uint(2 * BURIN_PART_END_FLANK));
+        parts = parts | (found << uint(k));
+    }
+    return parts;
+}
+
+// Requires: some bit is set, below 2 * BURIN_PARTS.
+int burin_lowest_bit(uint bits) {
+    uint low = bits & (~bits + 1u);
+    int at = 0;
+    if ((low & 0xffu) == 0u) at = 8;
+    uint rest = low >> uint(at);
+    if ((rest & 15u) == 0u) at += 4;
+    rest = low >> uint(at);
+    if ((rest & 3u) == 0u) at += 2;
+    return (low >> uint(at)) == 1u ? at : at + 1;
 }
 
 // The stretch of `whole` where part `part` acts on `side` (-1 or +1).

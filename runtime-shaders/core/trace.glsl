@@ -129,12 +129,13 @@ void burin_visit(uint reference, BurinRay ray, vec2 centre, vec2 stretch, float 
     mark.element = reference;
     mark.facet = BURIN_FACET_WALL;
     mark.wall = vec2(0.0f, 0.0f);
-    for (int i = 0; i < 2 * BURIN_PARTS; ++i) {
-        if (plain && i > 0) break;
+    uint parts = plain ? 1u : burin_parts_of(start, end, left, right, e.curved);
+    for (int n = 0; n < 2 * BURIN_PARTS; ++n) {
+        if (parts == 0u) break;
+        int i = burin_lowest_bit(parts);
+        parts = parts & (parts - 1u);
         mark.part = i / 2;
         mark.side = plain ? 0.0f : (i % 2 == 0 ? -1.0f : 1.0f);
-        if (!plain && !(i % 2 == 0 ? left : right)) continue;
-        if (!plain && !burin_has_part(start, end, mark.part, mark.side, e.curved)) continue;
         BurinPiece piece = whole;
         if (!plain) piece = burin_part(e, start, end, ray, whole, mark.part, mark.side);
         if (piece.hi <= piece.lo) continue;
@@ -325,7 +326,13 @@ BurinHit burin_trace(BurinRay start, float t0, float t1) {
     ivec2 index = burin_cell_at(p);
     for (int n = 0; n < BURIN_MAX_CELLS_PER_RAY; ++n) {
         if (outside) {
-            if (burin_trace_outside(hit, t)) break;
+            bool ends = burin_trace_outside(hit, t);
+            if ((ends ? hit.t : t) > t1) {
+                hit.met = false;
+                hit.t = t1;
+                return hit;
+            }
+            if (ends) break;
             index = burin_cell_at(hit.ray.origin + hit.ray.slope * t);
         }
         BurinCell cell = burin_cell(index);

@@ -11,6 +11,7 @@ struct BurinMap {
     vec2 size;          // metres per uv unit
     float depth;        // metres
     float outer_level;  // drop of the ground outside a map that does not repeat
+    vec2 drop_range;    // drops of the highest and of the lowest surface
     int repeats;        // 1: the pattern tiles
     ivec2 cells;        // columns and rows of the grid
     int first_style;    // texels of the data texture where its sections start; elements start at 0

@@ -9,6 +9,7 @@
 #include <burin/image_io.hpp>
 #include <burin/result.hpp>
 
+#include "cpp/prefilter.hpp"
 #include "gl/context.hpp"
 
 namespace burin::gl {
@@ -58,8 +59,10 @@ class DetailTextures {
     Sections sections_;
     int data_width_;
     int grid_width_, grid_height_;
+    std::array<float, 2> drop_range_;
     bool has_residual_;
-    GLuint names_[3] = {0, 0, 0};
+    std::vector<PrefilterClass> classes_;
+    GLuint names_[4] = {0, 0, 0, 0};
 };
 
 // A framebuffer of RGBA float colours, with depth if asked.
