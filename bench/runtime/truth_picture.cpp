@@ -144,7 +144,7 @@ namespace {
 struct Pixel {
     Vec3 sum{0, 0, 0};
     std::uint64_t what = 0;
-    bool uneven = false, feature = false;
+    bool uneven = false, feature = false, background = false;
     double low = 1e9, high = -1e9;
 
     void add(const TruthSample& sample, bool first) {
@@ -153,6 +153,7 @@ struct Pixel {
         low = std::min(low, seen);
         high = std::max(high, seen);
         feature |= sample.feature;
+        background |= sample.what == 0;
         if (first) what = sample.what;
         uneven |= sample.what != what;
     }
@@ -198,14 +199,15 @@ TruthPicture draw_anew(const Subject& subject, const PlaneView& view) {
     TruthPicture picture{view.width, view.height, {}, {}};
     for (const Pixel& pixel : all) {
         for (const double value : pixel.sum) picture.linear.push_back(float(value));
-        picture.feature.push_back(pixel.feature || pixel.uneven);
+        // The silhouette of the mesh is not the detail's affair.
+        picture.feature.push_back((pixel.feature || pixel.uneven) && !pixel.background);
     }
     return picture;
 }
 
 // Names a picture by all that it depends on: the stored numbers, the material, the view, and the drawing's own version.
 std::string key_of(const Subject& subject, const PlaneView& view) {
-    constexpr std::uint64_t kVersion = 1;
+    constexpr std::uint64_t kVersion = 2;
     std::uint64_t hash = 0xcbf29ce484222325ull;
     const auto add = [&](const void* data, std::size_t bytes) {
         for (std::size_t i = 0; i < bytes; ++i) hash = (hash ^ static_cast<const std::uint8_t*>(data)[i]) * 0x100000001b3ull;

@@ -10,7 +10,7 @@ namespace burin::bench {
 struct TruthPicture {
     int width = 0, height = 0;
     std::vector<float> linear;          // three per pixel: the mean over its samples
-    std::vector<std::uint8_t> feature;  // 1: the pixel's footprint meets a feature or the edge of a shadow
+    std::vector<std::uint8_t> feature;  // 1: the footprint meets a feature or a shadow's edge, and lies on the mesh
 };
 
 // What one sample sees.
