@@ -1,4 +1,5 @@
 // Question: how far are the shader's pictures from 256 samples per pixel of the truth?
+#include <algorithm>
 #include <cstdio>
 
 #include <burin/image_io.hpp>
@@ -24,6 +25,8 @@ void save(const Settings& settings, const std::string& name, const RgbaImage& pi
 
 void measure_view(const Settings& settings, const Subject& subject, const PlaneView& view) {
     const TruthPicture truth = draw_truth(subject, view, settings.cache);
+    // From far away a map that ends is too small to hold a whole pixel.
+    if (std::count(truth.feature.begin(), truth.feature.end(), 1) == 0) return;
     const Asset asset = asset_of(subject, extent_of(view, subject.prepared.resolved));
     std::printf("| %s | %s ", subject.name.c_str(), view.name.c_str());
     for (const Configuration& configuration : configurations()) {

@@ -48,10 +48,8 @@ Scene record(std::vector<Profile> profiles, Choose profile_of, double swing) {
     scene.flat = false;
     Mesh disc = make_ring(kInner, kOuter, 0.0008, kTiles);
     scene.parts.push_back({"vinyl", std::move(p), std::move(disc), {0.02f, 0.02f, 0.022f}, 0.0f, 0.25f});
-    scene.view.elevation = 40.0;
-    scene.view.zoom = 1.6;
-    scene.view.center = Vec2{23.6, 0.6};
-    scene.view.light_azimuth = 150.0;
+    scene.view.elevation = 35.0;
+    scene.view.light_elevation = 40.0;
     return scene;
 }
 
