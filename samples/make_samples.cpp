@@ -1,6 +1,8 @@
-// Writes burin's own height maps: patterns authored as vectors, rasterized by the library's evaluator.
+// Writes burin's own samples: patterns authored as vectors, as a height map and as scenes in glTF.
 //
-//     make_samples FOLDER        writes FOLDER/plate.png, 512 x 512, 16 bits
+//     make_samples FOLDER            writes FOLDER/plate.png, 512 x 512, 16 bits, rasterized by the library's evaluator
+//     make_samples FOLDER scenes     writes FOLDER/NAME.glb for every scene of scenes/
+//     make_samples FOLDER NAME       writes this one
 //
 // The plate has one of everything a pattern is made of: lines, arcs, a mitred zigzag, crossings, T-junctions, isolated
 // ends, and letters as plateaus with holes.
@@ -12,6 +14,8 @@
 #include <burin/image_io.hpp>
 #include <burin/rasterize.hpp>
 #include <burin/resolve.hpp>
+
+#include "write_scene.hpp"
 
 namespace {
 
@@ -166,13 +170,44 @@ int report(const std::string& message) {
     return 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    if (argc != 2) return report("usage: make_samples FOLDER");
+int write_plate(const std::string& folder) {
     const auto resolved = burin::resolve_pattern(make_plate());
     if (!resolved) return report(resolved.error().message);
     const burin::Image map = burin::rasterize_height(*resolved, 512, 512, {.samples = 8});
-    const auto written = burin::write_height(std::string(argv[1]) + "/plate.png", map);
+    const auto written = burin::write_height(folder + "/plate.png", map);
     return written ? 0 : report(written.error().message);
+}
+
+// One line: name, source, elements, bytes of textures and file, and the options with which `burin render` shows it.
+void print_scene(const burin::scenes::SceneEntry& entry, const burin::scenes::Scene& scene, const burin::scenes::SceneFile& file) {
+    const burin::scenes::View& view = scene.view;
+    std::printf("%s; %s; %zu; %zu; %zu; --azimuth %g --elevation %g --zoom %g --light %g,%g", entry.name, entry.source, file.elements,
+                file.texture_bytes, file.bytes.size(), view.azimuth, view.elevation, view.zoom, view.light_azimuth,
+                view.light_elevation);
+    if (view.center) std::printf(" --center %g,%g", view.center->x, view.center->y);
+    std::printf("\n");
+}
+
+// `name`: one of the table, or "scenes" for all of them.
+int write_scenes(const std::string& folder, const std::string& name) {
+    bool any = false;
+    for (const burin::scenes::SceneEntry& entry : burin::scenes::scene_table()) {
+        if (name != "scenes" && name != entry.name) continue;
+        any = true;
+        const burin::scenes::Scene scene = entry.make();
+        const auto file = burin::scenes::write_scene(scene);
+        if (!file) return report(entry.name + (": " + file.error().message));
+        const std::string path = folder + "/" + entry.name + ".glb";
+        if (const auto written = burin::write_file(path, file->bytes); !written) return report(written.error().message);
+        print_scene(entry, scene, *file);
+    }
+    return any ? 0 : report("no scene is called '" + name + "'");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc == 2) return write_plate(argv[1]);
+    if (argc == 3) return write_scenes(argv[1], argv[2]);
+    return report("usage: make_samples FOLDER [scenes | NAME]");
 }

@@ -330,7 +330,13 @@ BurinHit burin_trace(BurinRay start, float t0, float t1) {
     ivec2 index = burin_cell_at(p);
     for (int n = 0; n < BURIN_MAX_CELLS_PER_RAY; ++n) {
         if (outside) {
-            if (burin_trace_outside(hit, t)) break;
+            bool ends = burin_trace_outside(hit, t);
+            if ((ends ? hit.t : t) > t1) {
+                hit.met = false;
+                hit.t = t1;
+                return hit;
+            }
+            if (ends) break;
             index = burin_cell_at(hit.ray.origin + hit.ray.slope * t);
         }
         BurinCell cell = burin_cell(index);

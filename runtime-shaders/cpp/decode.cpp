@@ -18,18 +18,28 @@ class Core {
 #include "core/types.glsl"
     BurinMap burin_map;
     const PackedTextures* textures = nullptr;
+    DecodeCounts* counts = nullptr;
 
     uvec2 fetch_cell(ivec2 index) const {
+        if (counts != nullptr) ++counts->cells;
         const std::size_t k =
             2 * (std::size_t(index.y) * std::size_t(textures->grid_width) + std::size_t(index.x));
         return k + 2 <= textures->grid.size() ? uvec2(textures->grid[k], textures->grid[k + 1]) : uvec2(0);
     }
 
     uvec4 fetch_data(int index) const {
+        if (counts != nullptr) ++section_of(index);
         const std::size_t k = 4 * std::size_t(index);
         if (index < 0 || k + 4 > textures->data.size()) return uvec4(0);
         const std::uint32_t* w = &textures->data[k];
         return uvec4(w[0], w[1], w[2], w[3]);
+    }
+
+    std::uint64_t& section_of(int index) const {
+        if (index < burin_map.first_style) return counts->elements;
+        if (index < burin_map.first_profile) return counts->styles;
+        if (index < burin_map.first_material) return counts->profiles;
+        return index < burin_map.first_list ? counts->materials : counts->lists;
     }
 
 #include "core/fetch.glsl"
@@ -71,8 +81,9 @@ Core make_core(const PackedTextures& textures, const PathDetail& detail) {
 
 }  // namespace glsl
 
-DecodedHit Decoder::trace(Vec2 origin, Vec2 slope) const {
+DecodedHit Decoder::trace(Vec2 origin, Vec2 slope, DecodeCounts* counts) const {
     glsl::Core core = glsl::make_core(textures_, detail_);
+    core.counts = counts;
     glsl::Core::BurinRay ray;
     ray.origin = glm::vec2(float(origin.x), float(origin.y));
     ray.slope = glm::vec2(float(slope.x), float(slope.y));

@@ -33,6 +33,12 @@ struct DecodedHit {
     std::uint32_t material = 0;
 };
 
+// What a ray costs: texels fetched, by the section they lie in. Cells are the turns of the outer loop, elements those of the
+// inner one (an element may be fetched again where a stretch is asked twice).
+struct DecodeCounts {
+    std::uint64_t cells = 0, elements = 0, styles = 0, profiles = 0, materials = 0, lists = 0;
+};
+
 // Reads the textures where they are: both arguments must outlive it.
 // Requires: textures that passed validate_textures; any others give some answer, and no access out of bounds.
 // Every member is const and safe to call from several threads.
@@ -43,7 +49,8 @@ class Decoder {
 
     // The ray that passes the object surface at `origin` and goes `slope` metres over the plane per metre of
     // drop. Cost: cells passed times elements listed, some microseconds.
-    DecodedHit trace(Vec2 origin, Vec2 slope) const;
+    // `counts`, where given, grows by what the ray fetches.
+    DecodedHit trace(Vec2 origin, Vec2 slope, DecodeCounts* counts = nullptr) const;
 
     // Metres above ground level 0, seen from straight above.
     double height_at(Vec2 p) const;

@@ -220,6 +220,28 @@ TEST(RenderAsset, MeanLightStaysFromFarAway) {
     }
 }
 
+// The ground lies below the object surface, so that slanted rays leave a clamped map above it. What they meet outside is
+// level and lit.
+TEST(RenderAsset, GroundOutsideClampedMapsIsLit) {
+    Pattern pattern = clamped_pattern();
+    pattern.paths.clear();
+    pattern.base_offset = 0.5 * pattern.depth;
+    const PreparedPattern p = prepare(pattern);
+    RenderOptions options;
+    options.width = options.height = 96;
+    options.camera.elevation = 40.0;
+    options.antialiasing = Antialiasing::points;
+    options.samples = 1;
+    options.backend = backend();
+    const auto shadowed = render_asset(plane_with(p), options);
+    SKIP_WITHOUT_CONTEXT(shadowed);
+    ASSERT_TRUE(shadowed.ok()) << shadowed.error().message;
+    options.shadows = false;
+    const auto plain = render_asset(plane_with(p), options);
+    ASSERT_TRUE(plain.ok()) << plain.error().message;
+    EXPECT_EQ(shadowed->texels, plain->texels);
+}
+
 TEST(RenderAsset, ModelWithoutDetailIsShadedByItsMesh) {
     const PreparedPattern p = prepare(crossing_pattern());
     RenderOptions options;

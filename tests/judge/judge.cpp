@@ -1,11 +1,8 @@
-#include "rays.hpp"
+#include "judge.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <thread>
-
-#include <gtest/gtest.h>
 
 #include <burin/grid.hpp>
 #include <cpp/decode.hpp>
@@ -14,18 +11,6 @@
 
 namespace burin::testing {
 namespace {
-
-// Work on [0, count) by every core.
-template <typename Work>
-void in_parallel(std::size_t count, Work work) {
-    const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::thread> pool;
-    for (std::size_t k = 0; k < threads; ++k)
-        pool.emplace_back([=, &work] {
-            for (std::size_t i = k * count / threads; i < (k + 1) * count / threads; ++i) work(i);
-        });
-    for (std::thread& thread : pool) thread.join();
-}
 
 Vec2 on_element(const Element& e, double s) {
     if (e.kind == ElementKind::line) return lerp(e.p0, e.p2, s);
@@ -78,11 +63,6 @@ std::uint32_t facet_word(int facet) {
     return facet >= 0 ? std::uint32_t(facet) : (facet == kDecodedGroundFacet ? kGround : kWall);
 }
 
-struct Verdict {
-    bool facet_differs = false, height_differs = false, border = false, sheet = false;
-    double height = 0.0;
-};
-
 // Whether the truth met a sheet of solid thinner than 2e-5 of the tile, and what stands behind it is what the
 // decoder met.
 bool is_sheet(const Truth& truth, const PreparedPattern& p, PatternRay ray, const TruthHit& front,
@@ -101,9 +81,13 @@ bool is_sheet(const Truth& truth, const PreparedPattern& p, PatternRay ray, cons
     return !behind.inside && std::abs(past + behind.t - drop) < 1e-3 * p.detail.depth;
 }
 
-Verdict compare(const Truth& truth, const PreparedPattern& p, const AimedRay& aimed, const ShadedHit& hit) {
-    const TruthHit right = ask(truth, p, aimed.ray, {});
+}  // namespace
+
+Verdict compare_hit(const Truth& truth, const PreparedPattern& p, const PatternRay& ray, const ShadedHit& hit,
+                    double border) {
+    const TruthHit right = ask(truth, p, ray, {});
     Verdict v;
+    v.truth = right.hit;
     v.height = std::abs(double(hit.drop) - right.drop) / p.detail.depth;
     const std::uint32_t facet = facet_word(hit.facet);
     const std::uint32_t texel =
@@ -119,37 +103,36 @@ Verdict compare(const Truth& truth, const PreparedPattern& p, const AimedRay& ai
         v.facet_differs = false;
     v.height_differs = v.height > 1e-3;
     if (!v.facet_differs && !v.height_differs) return v;
-    v.sheet = is_sheet(truth, p, aimed.ray, right, double(hit.drop));
+    v.sheet = is_sheet(truth, p, ray, right, double(hit.drop));
     if (v.sheet) v.facet_differs = v.height_differs = false;
-    const double step = 2e-5;
     for (const Vec2 way : {Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}, Vec2{0.7, 0.7}, Vec2{-0.7, -0.7},
                            Vec2{0.7, -0.7}, Vec2{-0.7, 0.7}}) {
-        const TruthHit near = ask(truth, p, aimed.ray, way * step);
+        const TruthHit near = ask(truth, p, ray, way * border);
         if (!same_facet(near.hit, right.hit) || std::abs(near.drop - right.drop) > 0.05 * p.detail.depth)
             v.border = true;
     }
     return v;
 }
 
-}  // namespace
+Truth truth_of_stored(const PreparedPattern& p) {
+    TruthOptions options;
+    options.level_tolerance = 4e-5;
+    return Truth(p.stored, options);
+}
 
-PreparedPattern prepare(const Pattern& pattern, const GridOptions& options) {
+Result<PreparedPattern> prepare_pattern(const Pattern& pattern, const GridOptions& options) {
     PreparedPattern p;
     auto resolved = resolve_pattern(pattern);
-    EXPECT_TRUE(resolved.ok()) << (resolved ? "" : resolved.error().message);
-    if (!resolved) return p;
-    p.resolved = *resolved;
-    auto grid = build_grid(p.resolved, options);
-    EXPECT_TRUE(grid.ok()) << (grid ? "" : grid.error().message);
-    if (!grid) return p;
+    if (!resolved) return resolved.error();
+    p.resolved = std::move(*resolved);
+    const auto grid = build_grid(p.resolved, options);
+    if (!grid) return grid.error();
     auto textures = pack_textures(p.resolved, *grid);
-    EXPECT_TRUE(textures.ok()) << (textures ? "" : textures.error().message);
-    if (!textures) return p;
-    p.textures = *textures;
+    if (!textures) return textures.error();
+    p.textures = std::move(*textures);
     p.detail = describe_pattern(p.resolved, p.textures);
     auto stored = unpack_textures(p.textures, p.detail);
-    EXPECT_TRUE(stored.ok()) << (stored ? "" : stored.error().message);
-    if (!stored) return p;
+    if (!stored) return stored.error();
     p.stored = stored->pattern;
     for (std::uint32_t texel = 0; texel < p.textures.sections.element_texels;) {
         p.element_texels.push_back(texel);
@@ -200,11 +183,10 @@ std::string Agreement::report(const std::string& name) const {
 
 Agreement judge(const PreparedPattern& p, const std::vector<AimedRay>& rays,
                 const std::vector<ShadedHit>& hits) {
-    TruthOptions options;
-    options.level_tolerance = 4e-5;
-    const Truth truth(p.stored, options);
+    constexpr double kBorder = 2e-5;
+    const Truth truth = truth_of_stored(p);
     std::vector<Verdict> verdicts(rays.size());
-    in_parallel(rays.size(), [&](std::size_t i) { verdicts[i] = compare(truth, p, rays[i], hits[i]); });
+    in_parallel(rays.size(), [&](std::size_t i) { verdicts[i] = compare_hit(truth, p, rays[i].ray, hits[i], kBorder); });
     Agreement sum;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const std::size_t k = std::size_t(rays[i].kind);

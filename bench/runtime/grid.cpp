@@ -1,0 +1,113 @@
+// Question: how good is the cell size that build_grid chooses? The time of a view against the size of cells at several angles
+// (the figure 14 of 2010), as a table and, with --pictures, as grid_SCENE.svg.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <burin/image_io.hpp>
+
+#include "questions.hpp"
+#include "timing.hpp"
+
+namespace burin::bench {
+namespace {
+
+constexpr double kAngles[] = {30.0, 60.0, 80.0};  // off the normal
+constexpr double kFactors[] = {0.25, 0.35, 0.5, 0.71, 1.0, 1.41, 2.0, 2.83, 4.0};
+
+struct Curve {
+    std::vector<double> factors, times;  // of the chosen cell size; ns per pixel
+};
+
+std::string svg_of(const std::vector<Curve>& curves) {
+    constexpr double kWide = 480.0, kHigh = 300.0, kEdge = 40.0;
+    double most = 0.0;
+    for (const Curve& curve : curves)
+        for (const double time : curve.times) most = std::max(most, time);
+    const auto x_of = [&](double factor) { return kEdge + (kWide - 2 * kEdge) * (std::log2(factor) + 2.0) / 4.0; };
+    const auto y_of = [&](double time) { return kHigh - kEdge - (kHigh - 2 * kEdge) * time / most; };
+    std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='480' height='300' font-family='sans-serif' font-size='11'>\n";
+    char row[200];
+    std::snprintf(row, sizeof row, "<path d='M%g %g V%g H%g' fill='none' stroke='#888'/>\n", kEdge, kEdge, kHigh - kEdge, kWide - kEdge);
+    svg += row;
+    constexpr const char* kColors[] = {"#1b7837", "#2166ac", "#b2182b"};
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        svg += std::string("<polyline fill='none' stroke='") + kColors[k] + "' points='";
+        for (std::size_t i = 0; i < curves[k].times.size(); ++i) {
+            std::snprintf(row, sizeof row, "%.1f,%.1f ", x_of(curves[k].factors[i]), y_of(curves[k].times[i]));
+            svg += row;
+        }
+        std::snprintf(row, sizeof row, "'/>\n<text x='%g' y='%g' fill='%s'>%g degrees</text>\n", kEdge + 8, kEdge + 14.0 * double(k), kColors[k], kAngles[k]);
+        svg += row;
+    }
+    for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+        std::snprintf(row, sizeof row, "<text x='%.1f' y='%g' text-anchor='middle'>%g</text>\n", x_of(factor), kHigh - kEdge + 16, factor);
+        svg += row;
+    }
+    std::snprintf(row, sizeof row, "<text x='%g' y='%g' text-anchor='middle'>cell size over the chosen one; at the top %.0f ns per pixel</text>\n</svg>\n",
+                  kWide / 2, kHigh - 6, most);
+    return svg + row;
+}
+
+PlaneView view_from(const Settings& settings, const Subject& subject, double angle) {
+    PlaneView view = standard_views(subject, settings.quick ? 192 : 400, settings.quick ? 144 : 300)[1];
+    view.elevation = 90.0 - angle;
+    return view;
+}
+
+void measure(const Settings& settings, const Subject& chosen) {
+    const double own = chosen.prepared.resolved.size.x / chosen.prepared.textures.grid_width;
+    std::vector<Curve> curves(std::size(kAngles));
+    for (const double factor : kFactors) {
+        const auto subject = prepare_subject(chosen.name, chosen.scene, chosen.index, {.cell_size = factor == 1.0 ? 0.0 : own * factor});
+        if (!subject) continue;  // such cells would list too many elements
+        for (std::size_t k = 0; k < curves.size(); ++k) {
+            const PlaneView view = view_from(settings, chosen, kAngles[k]);
+            RenderOptions options = options_of(view, chosen.prepared.resolved.size);
+            options.backend = settings.backend;
+            const Asset asset = asset_of(*subject, extent_of(view, chosen.prepared.resolved));
+            curves[k].factors.push_back(factor);
+            curves[k].times.push_back(seconds_per_pass(asset, options, settings.quick ? 1 : 3) / (view.width * view.height) * 1e9);
+        }
+    }
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        const Curve& curve = curves[k];
+        const double best = *std::min_element(curve.times.begin(), curve.times.end());
+        std::printf("| %s | %g ", chosen.name.c_str(), kAngles[k]);
+        double of_own = 0.0;
+        for (const double factor : kFactors) {
+            const auto found = std::find(curve.factors.begin(), curve.factors.end(), factor);
+            if (found == curve.factors.end()) {
+                std::printf("| ");
+                continue;
+            }
+            const double time = curve.times[std::size_t(found - curve.factors.begin())];
+            if (factor == 1.0) of_own = time;
+            std::printf("| %.0f ", time);
+        }
+        std::printf("| %.2f |\n", of_own / best);
+    }
+    std::fflush(stdout);
+    if (settings.pictures.empty()) return;
+    const std::string svg = svg_of(curves);
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(svg.data());
+    if (Status written = write_file(settings.pictures + "/grid_" + chosen.name + ".svg", {bytes, svg.size()}); !written)
+        std::fprintf(stderr, "%s\n", written.error().message.c_str());
+}
+
+}  // namespace
+
+void ask_grid(const Settings& settings) {
+    std::printf("\n### Cell size\n\nProcessor time of a pixel, ns, at cell sizes over the chosen one (a gap: more elements in a cell than the format allows).\n\n| scene | degrees |");
+    for (const double factor : kFactors) std::printf(" %g |", factor);
+    std::printf(" chosen over best |\n|---|--:|");
+    for (std::size_t i = 0; i <= std::size(kFactors); ++i) std::printf("--:|");
+    std::printf("\n");
+    for_each_subject(settings, [&](const Subject& subject) {
+        // Of small patterns the cells are few whatever their size.
+        if (settings.scene.empty() && subject.prepared.resolved.elements.size() < 60) return;
+        measure(settings, subject);
+    });
+}
+
+}  // namespace burin::bench

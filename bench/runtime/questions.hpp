@@ -1,0 +1,38 @@
+// The questions of this bench. Each prints one table in Markdown about every subject that it can be asked of.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "subject.hpp"
+
+namespace burin::bench {
+
+struct Settings {
+    bool quick = false;    // fewer rays, smaller pictures, fewer frames: minutes instead of hours
+    std::string scene;     // only this one; "": all
+    std::string pictures;  // folder for pictures and error maps; "": none are written
+    std::string cache;     // folder of the truth's pictures; "": none are kept
+    Backend backend = Backend::osmesa;
+};
+
+// Setting of the renderer that a table has a row or a column for.
+struct Configuration {
+    const char* name;
+    std::function<void(RenderOptions&)> apply;
+};
+const std::vector<Configuration>& configurations();
+
+void ask_hits(const Settings& settings);
+void ask_pictures(const Settings& settings);
+void ask_memory(const Settings& settings);
+void ask_flicker(const Settings& settings);
+void ask_energy(const Settings& settings);
+void ask_features(const Settings& settings);
+void ask_grid(const Settings& settings);
+
+// Calls visit for every flat subject that the settings name; says so where a stage refuses one.
+void for_each_subject(const Settings& settings, const std::function<void(const Subject&)>& visit, bool flat_only = true);
+
+}  // namespace burin::bench

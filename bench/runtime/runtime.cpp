@@ -1,0 +1,90 @@
+// The runtime measured: decoder and shader against the truth.
+//
+//     bench_runtime [QUESTION ...] [--scene NAME] [--quick] [--pictures FOLDER] [--cache FOLDER] [--backend egl]
+//
+// Questions: hits pictures memory flicker energy features grid; without any, all of them. Tables in Markdown go to standard output.
+#include <cstdio>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "questions.hpp"
+
+namespace burin::bench {
+
+const std::vector<Configuration>& configurations() {
+    static const std::vector<Configuration> list = {
+        {"points 1", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 1; }},
+        {"points 4", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 4; }},
+        {"points 16", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 16; }},
+        {"regions, 4 rays", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 1, o.rays = 4; }},
+        {"regions, 16 rays", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 1, o.rays = 16; }},
+        {"regions 4", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 4, o.rays = 16; }},
+    };
+    return list;
+}
+
+void for_each_subject(const Settings& settings, const std::function<void(const Subject&)>& visit, bool flat_only) {
+    for (const scenes::SceneEntry& entry : scenes::scene_table()) {
+        if (!settings.scene.empty() && settings.scene != entry.name) continue;
+        const scenes::Scene scene = entry.make();
+        if (flat_only && !scene.flat && settings.scene.empty()) continue;
+        for (std::size_t part = 0; part < scene.parts.size(); ++part) {
+            const auto subject = prepare_subject(entry, part);
+            if (subject)
+                visit(*subject);
+            else
+                std::printf("| %s | refused: %s |\n", entry.name, subject.error().message.c_str());
+        }
+    }
+}
+
+namespace {
+
+struct Question {
+    const char* name;
+    void (*ask)(const Settings&);
+};
+constexpr Question kQuestions[] = {{"hits", ask_hits},         {"pictures", ask_pictures}, {"memory", ask_memory}, {"flicker", ask_flicker},
+                                    {"energy", ask_energy},     {"features", ask_features}, {"grid", ask_grid}};
+
+int usage(const std::string& word) {
+    std::fprintf(stderr, "bench_runtime: error: '%s' is no question or option; questions:", word.c_str());
+    for (const Question& question : kQuestions) std::fprintf(stderr, " %s", question.name);
+    std::fprintf(stderr, "; options: --scene NAME --quick --pictures FOLDER --cache FOLDER --backend osmesa|egl\n");
+    return 2;
+}
+
+void print_machine(const Settings& settings) {
+    const auto renderer = describe_backend(settings.backend);
+    std::printf("## Runtime\n\nRenderer: %s. Threads: %u.%s\n", renderer ? renderer->c_str() : renderer.error().message.c_str(),
+                std::thread::hardware_concurrency(), settings.quick ? " Quick." : "");
+}
+
+}  // namespace
+}  // namespace burin::bench
+
+int main(int argc, char** argv) {
+    using namespace burin::bench;
+    Settings settings;
+    std::vector<const Question*> asked;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool more = i + 1 < argc;
+        bool known = false;
+        for (const Question& question : kQuestions)
+            if (word == question.name) asked.push_back(&question), known = true;
+        if (known) continue;
+        if (word == "--quick") settings.quick = true;
+        else if (word == "--scene" && more) settings.scene = argv[++i];
+        else if (word == "--pictures" && more) settings.pictures = argv[++i];
+        else if (word == "--cache" && more) settings.cache = argv[++i];
+        else if (word == "--backend" && more) settings.backend = argv[++i] == std::string("egl") ? burin::Backend::egl : burin::Backend::osmesa;
+        else return usage(word);
+    }
+    if (asked.empty())
+        for (const Question& question : kQuestions) asked.push_back(&question);
+    print_machine(settings);
+    for (const Question* question : asked) question->ask(settings);
+    return 0;
+}
