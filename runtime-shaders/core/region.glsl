@@ -216,5 +216,11 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
         }
     }
     region.fullness = max(region.fullness, float(count) / float(BURIN_MAX_REGION_ELEMENTS));
+    // Where a map ends, its ground stands against the light that falls into a feature.
+    vec2 light_way = abs(light_slope) * ((burin_map.drop_range.y - burin_map.drop_range.x) * (shadows ? 1.0f : 0.0f));
+    vec2 lowest = ray.origin + ray.slope * burin_map.drop_range.y;
+    vec2 room = min(min(ray.origin, lowest), burin_map.size - max(ray.origin, lowest)) - footprint.radius;
+    bool at_border = burin_map.repeats == 0 && (room.x < light_way.x || room.y < light_way.y);
+    if (at_border && region.covered_area > 0.0f) region.special = 0xffffu;
     return region;
 }
