@@ -1,0 +1,276 @@
+// Rays over a surface that is not flat: [2010] 5.1. A line that is straight in space is a curve in pattern space, since
+// the surface bends away under it or towards it and stretches; it is followed in straight chords whose ends lie on it.
+//
+// THE LOCAL FRAME. Everything is written along the columns of the frame at the uv where the eye's ray passes the mesh:
+// one metre of pattern space along x, along y, and the unit normal. The surface's point there is the origin. A point of space p belongs
+// to the place (d, drop) of pattern space, d metres from the origin, with
+//     p = P(d) - drop N(d),   P(d) = (d, 0) + (xx d.x d.x + 2 xy d.x d.y + yy d.y d.y) / 2,   N(d) ~ (turn d, 1).
+// So a point that is deep against the radius is met at its own scale, 1 - drop / radius, and not at the surface's.
+//
+// A MESH IS MADE OF FLAT TRIANGLES. How far they stand off the round surface that their vertices lie on follows from
+// the second derivatives and from how uv spreads over the triangle: the mean over the corners, with the weights of the point,
+// of u u, u v, v v, less those of the point. The ray is followed from where it passes the round surface.
+//
+// A RAY THAT RISES. Beside the outline of a convex surface a ray falls, then rises. While it rises its chords still fall, by the
+// least there is, from the height where the curve is: they meet the walls it would meet. Where it comes up through the
+// object surface again it has left the object: met is false, nothing is to be drawn, what is behind it shows.
+
+#define BURIN_MAX_CHORDS 32
+// Part of the depth by which a chord may stand off the curve.
+#define BURIN_CHORD_ERROR 4.0e-3f
+// Fall per metre over the plane of a chord that rises or runs level.
+#define BURIN_LEAST_FALL 0.02f
+// Part of a chord by which the next one overlaps it, so that nothing is missed between them.
+#define BURIN_CHORD_OVERLAP 1.0e-3f
+// The most that the offset surface may shrink at the lowest point: where it is rounder than that it would fold.
+#define BURIN_MOST_SHRINK 0.75f
+
+struct BurinBend {
+    bool bent;  // false: flat and evenly stretched; the others are not asked
+    vec3 entry;  // local point of the mesh where the eye's ray passes it
+    vec3 xx;    // second derivatives of the surface along the local frame, per metre
+    vec3 xy;
+    vec3 yy;
+    vec2 turn_x;  // how the normal leans, per metre along x and along y
+    vec2 turn_y;
+};
+
+// A line of space. Its points are from + s along, s in metres where `along` has unit length in space.
+struct BurinSight {
+    BurinRay ray;  // on a flat surface: the line as it is there, from drop 0 to `until`
+    float until;
+    vec3 from;
+    vec3 along;
+    float first;  // s where it begins, and the length of a chord: the line is followed with growing s
+    float chord;
+    bool outward;   // it rises with growing s, as a ray to the light does
+    vec3 shift;     // (x, y, drop) that is added to all places of the curve
+    vec2 near;      // place of its beginning, about
+    int chords;
+};
+
+struct BurinFound {
+    BurinHit hit;
+    float way;   // s of the hit
+    vec2 place;  // where it is, metres; not moved into the tile
+};
+
+// Local point of a place, and its derivatives there.
+struct BurinSpot {
+    vec3 dx;
+    vec3 dy;
+    vec3 up;    // of the surface there, (lean, 1)
+    vec3 point;  // of the object surface
+};
+
+// Requires: second derivatives along the local frame; the metric (x . x, x . y, y . y) of its first two columns; the
+// spread (of x x, x y, y y) over the triangle.
+BurinBend burin_bend(vec3 xx, vec3 xy, vec3 yy, vec3 metric, vec3 spread) {
+    BurinBend bend;
+    bend.xx = xx;
+    bend.xy = xy;
+    bend.yy = yy;
+    float area = max(metric.x * metric.z - metric.y * metric.y, 1.0e-20f);
+    bend.turn_x = vec2(metric.y * xy.z - metric.z * xx.z, metric.y * xx.z - metric.x * xy.z) * (1.0f / area);
+    bend.turn_y = vec2(metric.y * yy.z - metric.z * xy.z, metric.y * xy.z - metric.x * yy.z) * (1.0f / area);
+    float middle = 0.5f * (bend.turn_x.x + bend.turn_y.y);
+    float gauss = bend.turn_x.x * bend.turn_y.y - bend.turn_x.y * bend.turn_y.x;
+    float shrink = (middle + sqrt(max(middle * middle - gauss, 0.0f))) * burin_map.depth;
+    if (shrink > BURIN_MOST_SHRINK) {
+        float less = BURIN_MOST_SHRINK / shrink;
+        bend.xx.z = bend.xx.z * less;
+        bend.xy.z = bend.xy.z * less;
+        bend.yy.z = bend.yy.z * less;
+        bend.turn_x = bend.turn_x * less;
+        bend.turn_y = bend.turn_y * less;
+    }
+    bend.entry = 0.5f * (bend.xx * spread.x + bend.yy * spread.z) + bend.xy * spread.y;
+    // What the surface turns and stretches over one depth; less than rounding makes of it is nothing.
+    float most = max(max(length(xx), length(xy)), length(yy));
+    bend.bent = most * burin_map.depth > 1.0e-6f;
+    return bend;
+}
+
+// Metres over the plane per metre of fall, of a direction that goes down.
+vec2 burin_slope_of(vec3 direction) {
+    return vec2(direction) * (1.0f / max(-direction.z, BURIN_LEAST_FALL * length(direction) + 1.0e-12f));
+}
+
+// From derivatives and spread per uv; `frame` has the local frame as its columns, `to_local` is its inverse.
+BurinBend burin_bend_at(mat3 frame, mat3 to_local, vec3 duu, vec3 duv, vec3 dvv, vec3 spread) {
+    vec2 size = burin_map.size;
+    vec3 square = vec3(size.x * size.x, size.x * size.y, size.y * size.y);
+    vec3 metric = vec3(dot(frame[0], frame[0]), dot(frame[0], frame[1]), dot(frame[1], frame[1]));
+    return burin_bend(to_local * duu * (1.0f / square.x), to_local * duv * (1.0f / square.y),
+                      to_local * dvv * (1.0f / square.z), metric, spread * square);
+}
+
+// Second derivative of the surface in a direction.
+vec3 burin_second(BurinBend bend, vec2 d) {
+    return bend.xx * (d.x * d.x) + bend.xy * (2.0f * d.x * d.y) + bend.yy * (d.y * d.y);
+}
+
+BurinSpot burin_spot(BurinBend bend, vec2 d) {
+    BurinSpot spot;
+    spot.dx = vec3(1.0f, 0.0f, 0.0f) + bend.xx * d.x + bend.xy * d.y;
+    spot.dy = vec3(0.0f, 1.0f, 0.0f) + bend.xy * d.x + bend.yy * d.y;
+    spot.up = vec3(bend.turn_x * d.x + bend.turn_y * d.y, 1.0f);
+    spot.point = vec3(d.x, d.y, 0.0f) + 0.5f * burin_second(bend, d);
+    return spot;
+}
+
+// Place (d, drop) of a local point, by Newton from a place nearby.
+vec3 burin_place(BurinBend bend, vec3 p, vec2 near) {
+    vec2 d = near;
+    BurinSpot spot = burin_spot(bend, d);
+    for (int i = 0; i < 3; ++i) {
+        float fall = spot.point.z - p.z;
+        vec2 off = vec2(spot.point) - vec2(spot.up) * fall - vec2(p);
+        vec2 jx = vec2(spot.dx) - bend.turn_x * fall - vec2(spot.up) * spot.dx.z;
+        vec2 jy = vec2(spot.dy) - bend.turn_y * fall - vec2(spot.up) * spot.dy.z;
+        float area = jx.x * jy.y - jx.y * jy.x;
+        area = abs(area) > 1.0e-3f ? area : 1.0e-3f;
+        d = d - vec2(off.x * jy.y - off.y * jy.x, off.y * jx.x - off.x * jx.y) * (1.0f / area);
+        spot = burin_spot(bend, d);
+    }
+    // (lean, 1) is this much longer than the unit normal, since the lean is the negative slope of the surface.
+    float longer = sqrt(max(1.0f - dot(vec2(spot.up), vec2(spot.dx.z, spot.dy.z)), 1.0f));
+    return vec3(d.x, d.y, (spot.point.z - p.z) * longer);
+}
+
+// A normal of pattern space at a place, as a normal of the local frame; not of unit length.
+vec3 burin_bend_normal(BurinBend bend, vec2 d, float drop, vec3 normal) {
+    if (!bend.bent) return normal;
+    BurinSpot spot = burin_spot(bend, d);
+    vec3 x = spot.dx - vec3(bend.turn_x.x, bend.turn_x.y, 0.0f) * drop;
+    vec3 y = spot.dy - vec3(bend.turn_y.x, bend.turn_y.y, 0.0f) * drop;
+    return cross(y, spot.up) * normal.x + cross(spot.up, x) * normal.y + cross(x, y) * normal.z;
+}
+
+// Chords that a stretch of a line needs. `fall`: drop per metre of it.
+int burin_chord_count(BurinBend bend, vec2 along, float fall, float stretch) {
+    vec3 second = burin_second(bend, along);
+    vec2 turn = bend.turn_x * along.x + bend.turn_y * along.y;
+    float curve = abs(second.z) + length(vec2(second)) + 2.0f * abs(fall) * length(turn);
+    float count = stretch * sqrt(curve / (8.0f * BURIN_CHORD_ERROR * burin_map.depth));
+    return int(clamp(ceil(count), 1.0f, float(BURIN_MAX_CHORDS) * 0.5f));
+}
+
+// The eye's ray. `direction` of unit length in space, along the local frame; it falls.
+BurinSight burin_eye_sight(BurinBend bend, BurinRay ray, vec3 direction) {
+    BurinSight sight;
+    sight.ray = ray;
+    sight.until = burin_map.depth;
+    sight.from = vec3(0.0f, 0.0f, 0.0f);
+    sight.along = direction;
+    sight.first = 0.0f;
+    sight.chord = 0.0f;
+    sight.outward = false;
+    sight.shift = vec3(0.0f, 0.0f, 0.0f);
+    sight.near = vec2(0.0f, 0.0f);
+    sight.chords = 1;
+    if (!bend.bent) return sight;
+    // drop(s) = fall s + second s^2 / 2 from the round surface on: it reaches the lowest point, or comes up before.
+    float fall = max(-direction.z, 1.0e-6f);
+    float second = burin_second(bend, vec2(direction)).z;
+    float below = -bend.entry.z;
+    float turned = sqrt(max(fall * fall - 2.0f * second * below, 0.0f));
+    sight.from = bend.entry;
+    sight.first = -2.0f * below / (fall + turned);
+    fall = max(turned, 1.0e-6f);
+    float square = fall * fall + 2.0f * second * burin_map.depth;
+    float stretch = square > 0.0f ? 2.0f * burin_map.depth / (fall + sqrt(square)) : -2.0f * fall / second;
+    sight.chords = burin_chord_count(bend, vec2(direction), fall, stretch);
+    sight.chord = stretch / float(sight.chords);
+    // It may take somewhat longer than to second order.
+    sight.chords = BURIN_MAX_CHORDS;
+    return sight;
+}
+
+// From what the eye met towards the light, whose local direction has unit length in space. `ray` as on a flat surface,
+// where it ends at the drop `until`.
+BurinSight burin_light_sight(BurinBend bend, BurinRay ray, float until, BurinFound found, BurinSight eye, vec2 start,
+                             vec3 light) {
+    BurinSight sight = eye;
+    sight.ray = ray;
+    sight.until = until;
+    if (!bend.bent) return sight;
+    sight.from = eye.from + eye.along * found.way;
+    sight.along = light;
+    sight.outward = true;
+    vec2 d = found.place - start;
+    BurinSpot spot = burin_spot(bend, d);
+    float rise = max(light.z - dot(vec2(light), vec2(spot.dx.z, spot.dy.z)), 1.0e-3f);
+    float second = burin_second(bend, vec2(light)).z;
+    float square = rise * rise - 2.0f * second * found.hit.t;
+    float stretch = square > 0.0f ? 2.0f * found.hit.t / (rise + sqrt(square)) : rise / second;
+    sight.chords = burin_chord_count(bend, vec2(light), rise, stretch);
+    sight.chord = stretch * 1.001f / float(sight.chords);
+    sight.first = max(found.hit.t - until, 0.0f) / rise;
+    // The hit lies on a chord; the curve goes through it from here on.
+    sight.shift = vec3(d.x, d.y, found.hit.t) - burin_place(bend, sight.from, d);
+    sight.near = d;
+    return sight;
+}
+
+// A straight piece of a sight, falling from t0 to t1.
+struct BurinChord {
+    BurinRay ray;
+    float t0;
+    float t1;
+};
+
+BurinChord burin_chord(vec2 start, vec3 upper, vec3 lower, bool outward) {
+    vec2 way = vec2(lower) - vec2(upper);
+    float fall = max(max(lower.z - upper.z, length(way) * BURIN_LEAST_FALL), 1.0e-6f * burin_map.depth);
+    BurinChord chord;
+    chord.t0 = outward ? lower.z - fall : upper.z;
+    chord.t1 = chord.t0 + fall;
+    chord.ray.slope = way * (1.0f / fall);
+    chord.ray.origin = start + vec2(upper) - chord.ray.slope * chord.t0;
+    chord.t0 = max(chord.t0 - fall * BURIN_CHORD_OVERLAP, 0.0f);
+    return chord;
+}
+
+// First solid point along a sight, for `outward` any. met is false where it leaves the object, or reaches its end, before.
+// `start`: pattern metres where the eye's ray passes the object surface.
+BurinFound burin_trace_sight(BurinBend bend, vec2 start, BurinSight sight) {
+    BurinFound found;
+    BurinChord chord;
+    chord.ray = sight.ray;
+    chord.t0 = 0.0f;
+    chord.t1 = sight.until;
+    float s = sight.first;
+    vec3 here = vec3(0.0f, 0.0f, 0.0f);
+    if (bend.bent) here = burin_place(bend, sight.from + sight.along * s, sight.near) + sight.shift;
+    float length_here = sight.chord;
+    for (int i = 0; i < BURIN_MAX_CHORDS; ++i) {
+        vec3 next = here;
+        bool leaves = !bend.bent || i + 1 >= sight.chords;
+        if (bend.bent) {
+            vec3 p = sight.from + sight.along * (s + sight.chord);
+            next = burin_place(bend, p, vec2(here) - vec2(sight.shift)) + sight.shift;
+            // A ray that is still inside after all its chords ends on what is below it: no pixel stays empty.
+            if (!sight.outward && i + 1 == BURIN_MAX_CHORDS) next.z = burin_map.depth;
+            if (next.z <= 0.0f) {
+                float part = here.z / max(here.z - next.z, 1.0e-20f);
+                next = mix(here, next, part);
+                length_here = sight.chord * part;
+                leaves = true;
+            }
+            chord = burin_chord(start, sight.outward ? next : here, sight.outward ? here : next, sight.outward);
+        }
+        found.hit = burin_trace(chord.ray, chord.t0, chord.t1);
+        if (found.hit.met || leaves) break;
+        s = s + length_here;
+        here = next;
+    }
+    found.place = chord.ray.origin + chord.ray.slope * found.hit.t;
+    if (bend.bent) {
+        float part = (found.hit.t - chord.t0) / max(chord.t1 - chord.t0, 1.0e-20f);
+        found.way = s + length_here * (sight.outward ? 1.0f - part : part);
+    } else {
+        found.way = found.hit.t / max(-sight.along.z, BURIN_LEAST_FALL * length(sight.along) + 1.0e-12f);
+    }
+    return found;
+}
