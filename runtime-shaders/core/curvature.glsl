@@ -43,6 +43,7 @@ struct BurinSight {
     vec3 along;
     float first;  // s where it begins, and the length of a chord: the line is followed with growing s
     float chord;
+    float fall;     // drop per metre of it where the eye's ray begins
     bool outward;   // it rises with growing s, as a ray to the light does
     vec3 shift;     // (x, y, drop) that is added to all places of the curve
     vec2 near;      // place of its beginning, about
@@ -93,7 +94,7 @@ BurinBend burin_bend(vec3 xx, vec3 xy, vec3 yy, vec3 metric, vec3 spread) {
 
 // Metres over the plane per metre of fall, of a direction that goes down.
 vec2 burin_slope_of(vec3 direction) {
-    return vec2(direction) * (1.0f / max(-direction.z, BURIN_LEAST_FALL * length(direction) + 1.0e-12f));
+    return vec2(direction) / max(-direction.z, BURIN_LEAST_FALL * length(direction) + 1.0e-12f);
 }
 
 // From derivatives and spread per uv; `frame` has the local frame as its columns, `to_local` is its inverse.
@@ -165,6 +166,7 @@ BurinSight burin_eye_sight(BurinBend bend, BurinRay ray, vec3 direction) {
     sight.along = direction;
     sight.first = 0.0f;
     sight.chord = 0.0f;
+    sight.fall = 1.0f;
     sight.outward = false;
     sight.shift = vec3(0.0f, 0.0f, 0.0f);
     sight.near = vec2(0.0f, 0.0f);
@@ -177,7 +179,8 @@ BurinSight burin_eye_sight(BurinBend bend, BurinRay ray, vec3 direction) {
     float turned = sqrt(max(fall * fall - 2.0f * second * below, 0.0f));
     sight.from = bend.entry;
     sight.first = -2.0f * below / (fall + turned);
-    fall = max(turned, 1.0e-6f);
+    fall = max(turned, 1.0e-3f);
+    sight.fall = fall;
     float square = fall * fall + 2.0f * second * burin_map.depth;
     float stretch = square > 0.0f ? 2.0f * burin_map.depth / (fall + sqrt(square)) : -2.0f * fall / second;
     sight.chords = burin_chord_count(bend, vec2(direction), fall, stretch);
@@ -242,7 +245,15 @@ BurinFound burin_trace_sight(BurinBend bend, vec2 start, BurinSight sight) {
     chord.t1 = sight.until;
     float s = sight.first;
     vec3 here = vec3(0.0f, 0.0f, 0.0f);
-    if (bend.bent) here = burin_place(bend, sight.from + sight.along * s, sight.near) + sight.shift;
+    if (bend.bent) {
+        here = burin_place(bend, sight.from + sight.along * s, sight.near) + sight.shift;
+        if (!sight.outward) {
+            // Exactly on the object surface, or ground that lies there would count as a wall.
+            s = s - here.z / sight.fall;
+            here = burin_place(bend, sight.from + sight.along * s, vec2(here));
+            here.z = 0.0f;
+        }
+    }
     float length_here = sight.chord;
     for (int i = 0; i < BURIN_MAX_CHORDS; ++i) {
         vec3 next = here;

@@ -81,8 +81,9 @@ std::string fragment_text(Stage stage) {
     text += shader_text::bindings;
     for (const char* part :
          {shader_text::fetch, shader_text::curve, shader_text::domain, shader_text::section,
-          shader_text::ground, shader_text::trace, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
+          shader_text::ground, shader_text::trace, shader_text::curvature, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
         text += part;
+    if (stage == Stage::surface) text += shader_text::curved;
     text += stage == Stage::rays ? shader_text::rays_frag
                                  : (stage == Stage::top ? shader_text::top_frag : shader_text::surface_frag);
     return text;

@@ -32,23 +32,17 @@ void derived_directions(BURIN_OUT(vec3) along_u, BURIN_OUT(vec3) along_v) {
     along_v = (py * ux.x - px * uy.x) / area;
 }
 
-// Columns: world directions of one metre along x, y and z of pattern space.
-mat3 pattern_frame(vec3 n) {
+// Columns: world directions of one metre along x, y and z of pattern space. `own`: as the mesh brings them.
+mat3 pattern_frame(vec3 n, BURIN_OUT(bool) own) {
     vec3 along_u;
     vec3 along_v;
     derived_directions(along_u, along_v);
     // Where mirrored faces meet, what the mesh brings cancels out.
-    bool own = dot(world_along_u, along_u) > 0.5 * dot(along_u, along_u) &&
+    own = dot(world_along_u, along_u) > 0.5 * dot(along_u, along_u) &&
                dot(world_along_v, along_v) > 0.5 * dot(along_v, along_v);
     vec3 along_x = (own ? world_along_u : along_u) / burin_map.size.x;
     vec3 along_y = (own ? world_along_v : along_v) / burin_map.size.y;
     return mat3(along_x - n * dot(along_x, n), along_y - n * dot(along_y, n), n);
-}
-
-// Metres over the plane per metre of fall, of a direction that goes down.
-vec2 slope_of(vec3 direction) {
-    vec2 slope = direction.xy / max(-direction.z, 0.02 * length(direction) + 1.0e-12);
-    return slope;
 }
 
 // Lambert and GGX with Smith's shadowing, for one light; colours linear.
@@ -83,18 +77,25 @@ void main() {
     float rough = roughness;
     float lit = 1.0;
     vec3 shading_normal = n;
-    mat3 frame = pattern_frame(n);
+    bool own;
+    mat3 frame = pattern_frame(n, own);
     float handed = determinant(frame);
     if (has_detail != 0 && abs(handed) > 1.0e-12 && dot(n, to_eye) > 1.0e-3) {
         mat3 to_pattern = inverse(frame);
+        BurinBend bend = pattern_bend(pattern_uv, frame, to_pattern, own);
+        vec3 direction = to_pattern * -to_eye;
         BurinRay ray;
         ray.origin = pattern_uv * burin_map.size;
-        ray.slope = slope_of(to_pattern * -to_eye);
-        BurinHit hit = burin_trace(ray, 0.0, burin_map.depth);
+        ray.slope = burin_slope_of(direction);
+        BurinSight sight = burin_eye_sight(bend, ray, direction);
+        BurinFound found = burin_trace_sight(bend, ray.origin, sight);
+        BurinHit hit = found.hit;
+        if (!hit.met) discard;
         BurinSurface surface = burin_surface(hit);
         vec2 place = hit.ray.origin + hit.ray.slope * hit.t;
         vec3 detailed = burin_add_slopes(surface.normal, fetch_residual(place, uv_along_x, uv_along_y));
-        shading_normal = normalize(transpose(to_pattern) * detailed);
+        vec2 moved = found.place - ray.origin;
+        shading_normal = normalize(transpose(to_pattern) * burin_bend_normal(bend, moved, hit.t, detailed));
         BurinMaterial material = burin_material(surface.material);
         if (material.overrides) {
             albedo = material.base_color.rgb;
@@ -102,14 +103,16 @@ void main() {
             rough = material.roughness;
         }
         vec3 toward = to_pattern * light;
-        if (shadows != 0 && dot(shading_normal, light) > 0.0 && toward.z > 0.0) {
+        float rise = dot(burin_bend_normal(bend, moved, hit.t, vec3(0.0, 0.0, 1.0)), toward);
+        if (shadows != 0 && dot(shading_normal, light) > 0.0 && rise > 0.0) {
             BurinRay shadow;
-            shadow.slope = slope_of(-toward);
+            shadow.slope = burin_slope_of(-toward);
             shadow.origin = hit.ray.origin + (hit.ray.slope - shadow.slope) * hit.t;
             float before = hit.t - 4.0e-3 * burin_map.depth;
-            if (before > 0.0 && burin_trace(shadow, 0.0, before).met) lit = 0.0;
+            BurinSight lit_from = burin_light_sight(bend, shadow, before, found, sight, ray.origin, toward);
+            if (before > 0.0 && burin_trace_sight(bend, ray.origin, lit_from).hit.met) lit = 0.0;
         }
-        if (toward.z <= 0.0) lit = 0.0;
+        if (rise <= 0.0) lit = 0.0;
     }
     color = vec4(clamp(shade(shading_normal, to_eye, albedo, metal, rough, lit), 0.0, 1.0), 1.0);
 }

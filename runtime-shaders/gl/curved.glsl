@@ -1,0 +1,12 @@
+// The surface's derivatives as the fragment shader gets them from the vertices: how it bends under the pattern.
+in vec3 world_duu;  // metres of the world per uv squared; zero: unknown, or flat
+in vec3 world_duv;
+in vec3 world_dvv;
+in vec3 uv_products;  // u u, u v, v v of the corners
+
+// `own`: the frame comes from the vertices' own directions, with which these go.
+BurinBend pattern_bend(vec2 uv, mat3 frame, mat3 to_local, bool own) {
+    vec3 spread = uv_products - vec3(uv.x * uv.x, uv.x * uv.y, uv.y * uv.y);
+    float known = own ? 1.0 : 0.0;
+    return burin_bend_at(frame, to_local, known * world_duu, known * world_duv, known * world_dvv, spread);
+}
