@@ -33,11 +33,11 @@ struct LeastSquares {
         }
     }
 
-    // Elimination without pivots: the matrix is positive definite. `firm`: unknowns before it carry a thousandth of the ridge.
+    // Elimination without pivots: the matrix is positive definite. `firm`: unknowns before it carry a millionth of the ridge.
     std::array<std::array<double, C>, N> solve(std::size_t firm) {
         double trace = 1e-300;
         for (std::size_t i = 0; i < N; ++i) trace += matrix[i][i];
-        for (std::size_t i = 0; i < N; ++i) matrix[i][i] += trace * (i < firm ? 1e-12 : 1e-9);
+        for (std::size_t i = 0; i < N; ++i) matrix[i][i] += trace * (i < firm ? 1e-15 : 1e-9);
         for (std::size_t k = 0; k < N; ++k)
             for (std::size_t i = k + 1; i < N; ++i) {
                 const double factor = matrix[i][k] / matrix[k][k];

@@ -4,6 +4,21 @@ in vec3 world_duv;
 in vec3 world_dvv;
 in vec3 uv_products;  // u u, u v, v v of the corners
 
+#ifdef BURIN_CORRECT_DEPTH
+uniform mat4 world_to_clip;
+
+// Depth of a world point as the rasterizer would have it, of perspective and parallel views.
+float depth_of(vec3 world) {
+    vec4 clip = world_to_clip * vec4(world, 1.0);
+    return clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 1.0);
+}
+#endif
+
+// The vertices bring derivatives, which part at mirrored faces and hold where a triangle is seen from its edge.
+bool has_frames() {
+    return dot(world_duu, world_duu) + dot(world_duv, world_duv) + dot(world_dvv, world_dvv) > 0.0;
+}
+
 // `own`: the frame comes from the vertices' own directions, with which these go.
 BurinBend pattern_bend(vec2 uv, mat3 frame, mat3 to_local, bool own) {
     vec3 spread = uv_products - vec3(uv.x * uv.x, uv.x * uv.y, uv.y * uv.y);

@@ -76,6 +76,8 @@ GLuint make_residual(const Functions& gl, const RgbaImage& picture, bool repeat)
 
 std::string fragment_text(Stage stage) {
     std::string text = kVersion;
+    const bool surface = stage == Stage::surface || stage == Stage::surface_with_depth;
+    if (stage == Stage::surface_with_depth) text += "#define BURIN_CORRECT_DEPTH\n";
     text += shader_text::layout;
     text += shader_text::types;
     text += shader_text::bindings;
@@ -83,7 +85,7 @@ std::string fragment_text(Stage stage) {
          {shader_text::fetch, shader_text::curve, shader_text::domain, shader_text::section,
           shader_text::ground, shader_text::trace, shader_text::curvature, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
         text += part;
-    if (stage == Stage::surface) text += shader_text::curved;
+    if (surface) text += shader_text::curved;
     text += stage == Stage::rays ? shader_text::rays_frag
                                  : (stage == Stage::top ? shader_text::top_frag : shader_text::surface_frag);
     return text;
@@ -92,7 +94,7 @@ std::string fragment_text(Stage stage) {
 Result<Program> Program::build(const Functions& gl, Stage stage) {
     const std::string vertex_text =
         std::string(kVersion) +
-        (stage == Stage::surface ? shader_text::surface_vert : shader_text::screen_vert);
+        (stage == Stage::rays || stage == Stage::top ? shader_text::screen_vert : shader_text::surface_vert);
     auto vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
     if (!vertex) return vertex.error();
     auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage));

@@ -14,7 +14,7 @@
 namespace burin::gl {
 
 // Which fragment shader of this folder a program ends in.
-enum class Stage { rays, top, surface };
+enum class Stage { rays, top, surface, surface_with_depth };  // the last writes the depth of what is met
 
 // Text of a fragment shader as the driver gets it: version, layout.h, core, bindings, main.
 std::string fragment_text(Stage stage);

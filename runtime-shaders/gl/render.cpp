@@ -432,7 +432,7 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     auto context = gl::open_context(options.backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
-    auto program = gl::Program::build(gl, gl::Stage::surface);
+    auto program = gl::Program::build(gl, options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface);
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
     if (!target) return target.error();

@@ -38,8 +38,8 @@ mat3 pattern_frame(vec3 n, BURIN_OUT(bool) own) {
     vec3 along_v;
     derived_directions(along_u, along_v);
     // Where mirrored faces meet, what the mesh brings cancels out.
-    own = dot(world_along_u, along_u) > 0.5 * dot(along_u, along_u) &&
-               dot(world_along_v, along_v) > 0.5 * dot(along_v, along_v);
+    own = has_frames() || (dot(world_along_u, along_u) > 0.5 * dot(along_u, along_u) &&
+                           dot(world_along_v, along_v) > 0.5 * dot(along_v, along_v));
     vec3 along_x = (own ? world_along_u : along_u) / burin_map.size.x;
     vec3 along_y = (own ? world_along_v : along_v) / burin_map.size.y;
     return mat3(along_x - n * dot(along_x, n), along_y - n * dot(along_y, n), n);
@@ -77,6 +77,9 @@ void main() {
     float rough = roughness;
     float lit = 1.0;
     vec3 shading_normal = n;
+#ifdef BURIN_CORRECT_DEPTH
+    gl_FragDepth = gl_FragCoord.z;
+#endif
     bool own;
     mat3 frame = pattern_frame(n, own);
     float handed = determinant(frame);
@@ -91,6 +94,9 @@ void main() {
         BurinFound found = burin_trace_sight(bend, ray.origin, sight);
         BurinHit hit = found.hit;
         if (!hit.met) discard;
+#ifdef BURIN_CORRECT_DEPTH
+        gl_FragDepth = depth_of(world_position - to_eye * found.way);
+#endif
         BurinSurface surface = burin_surface(hit);
         vec2 place = hit.ray.origin + hit.ray.slope * hit.t;
         vec3 detailed = burin_add_slopes(surface.normal, fetch_residual(place, uv_along_x, uv_along_y));

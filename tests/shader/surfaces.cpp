@@ -82,44 +82,55 @@ RoundSurface stretched_sheet(double detail) {
     return s;
 }
 
-// Corners of one cell of the quadtree and what hangs on them.
-struct Displacer {
-    const RoundSurface& surface;
-    const std::function<double(Vec2)>& drop;
-    double tolerance;
-    Triangles out;
+// A cell of one tile over which the drop is linear, with the drop at its corners.
+struct Cell {
+    Vec2 low, high;
+    double drop[4];  // at low, (high.x, low.y), high, (low.x, high.y)
+};
 
+class Divider {
+  public:
+    Divider(const std::function<double(Vec2)>& drop, double tolerance) : drop_(drop), tolerance_(tolerance) {}
+    void add(Vec2 low, Vec2 high, int levels) {
+        const Vec2 middle = (low + high) * 0.5;
+        if (levels == 0 || is_linear(low, high)) {
+            cells.push_back({low, high, {drop_(low), drop_({high.x, low.y}), drop_(high), drop_({low.x, high.y})}});
+            return;
+        }
+        add(low, middle, levels - 1);
+        add({middle.x, low.y}, {high.x, middle.y}, levels - 1);
+        add({low.x, middle.y}, {middle.x, high.y}, levels - 1);
+        add(middle, high, levels - 1);
+    }
+    std::vector<Cell> cells;
+
+  private:
     bool is_linear(Vec2 low, Vec2 high) const {
         double d[5][5];
         for (int j = 0; j < 5; ++j)
-            for (int i = 0; i < 5; ++i) d[j][i] = drop({low.x + (high.x - low.x) * i / 4, low.y + (high.y - low.y) * j / 4});
+            for (int i = 0; i < 5; ++i) d[j][i] = drop_({low.x + (high.x - low.x) * i / 4, low.y + (high.y - low.y) * j / 4});
         for (int j = 0; j < 5; ++j)
             for (int i = 0; i < 5; ++i) {
                 const double x = i / 4.0, y = j / 4.0;
                 const double flat = (1 - y) * ((1 - x) * d[0][0] + x * d[0][4]) + y * ((1 - x) * d[4][0] + x * d[4][4]);
-                if (std::abs(d[j][i] - flat) > tolerance) return false;
+                if (std::abs(d[j][i] - flat) > tolerance_) return false;
             }
         return true;
     }
-    std::uint32_t vertex(Vec2 uv) {
-        const SurfacePosition at = surface.at(uv);
-        const Vec3 p = at.position - at.normal * drop(uv);
-        for (int k = 0; k < 3; ++k) out.positions.push_back(float(p[std::size_t(k)]));
-        return std::uint32_t(out.positions.size() / 3 - 1);
-    }
-    void add(Vec2 low, Vec2 high, int levels) {
-        const Vec2 middle = (low + high) * 0.5;
-        if (levels > 0 && !is_linear(low, high)) {
-            add(low, middle, levels - 1);
-            add({middle.x, low.y}, {high.x, middle.y}, levels - 1);
-            add({low.x, middle.y}, {middle.x, high.y}, levels - 1);
-            add(middle, high, levels - 1);
-            return;
-        }
-        const std::uint32_t a = vertex(low), b = vertex({high.x, low.y}), c = vertex(high), d = vertex({low.x, high.y});
-        out.indices.insert(out.indices.end(), {a, b, c, a, c, d});
-    }
+    const std::function<double(Vec2)>& drop_;
+    double tolerance_;
 };
+
+void add_cell(const RoundSurface& surface, const Cell& cell, Vec2 tile, Triangles& out) {
+    const Vec2 corners[4] = {cell.low, {cell.high.x, cell.low.y}, cell.high, {cell.low.x, cell.high.y}};
+    const std::uint32_t a = std::uint32_t(out.positions.size() / 3);
+    for (int k = 0; k < 4; ++k) {
+        const SurfacePosition at = surface.at(corners[k] + tile);
+        const Vec3 p = at.position - at.normal * cell.drop[k];
+        for (const double value : p) out.positions.push_back(float(value));
+    }
+    out.indices.insert(out.indices.end(), {a, a + 1, a + 2, a, a + 2, a + 3});
+}
 
 }  // namespace
 
@@ -155,13 +166,16 @@ BaseMesh mesh_of(const RoundSurface& surface) {
 }
 
 Triangles displace(const RoundSurface& surface, const std::function<double(Vec2)>& drop, double tolerance, int levels) {
-    Displacer displacer{surface, drop, tolerance, {}};
-    const int columns = int(surface.span.x * 16), rows = int(surface.span.y * 16);
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i)
-            displacer.add({surface.span.x * i / columns, surface.span.y * j / rows},
-                          {surface.span.x * (i + 1) / columns, surface.span.y * (j + 1) / rows}, levels);
-    return std::move(displacer.out);
+    Divider tile(drop, tolerance);
+    constexpr int kCells = 16;
+    for (int j = 0; j < kCells; ++j)
+        for (int i = 0; i < kCells; ++i)
+            tile.add({double(i) / kCells, double(j) / kCells}, {double(i + 1) / kCells, double(j + 1) / kCells}, levels);
+    Triangles out;
+    for (int v = 0; v < int(surface.span.y); ++v)
+        for (int u = 0; u < int(surface.span.x); ++u)
+            for (const Cell& cell : tile.cells) add_cell(surface, cell, {double(u), double(v)}, out);
+    return out;
 }
 
 }  // namespace burin::testing

@@ -51,7 +51,8 @@ struct Triangles {
     std::vector<std::uint32_t> indices;
 };
 
-// P - drop N as triangles, finer where the drop is not linear: cells of 1/16 uv unit are halved up to `levels` times.
+// P - drop N as triangles, finer where the drop, which is the same in every tile, is not linear: cells of 1/16 uv unit are
+// halved up to `levels` times.
 Triangles displace(const RoundSurface& surface, const std::function<double(Vec2)>& drop, double tolerance, int levels);
 
 }  // namespace burin::testing

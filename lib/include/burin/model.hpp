@@ -117,8 +117,8 @@ struct Primitive {
     std::vector<float> uvs;  // two per vertex, of the uv set of the material's pattern (set 0 without one);
                              // zero where the file has none
     std::vector<std::uint32_t> indices;  // three per triangle, each below the vertex count
-    std::vector<SurfaceFrame> frames;    // one per vertex, world space; none where the file has none
     int material = 0;                    // index into Asset::materials
+    std::vector<SurfaceFrame> frames{};  // one per vertex, world space; none where the file has none
 };
 
 struct MaterialInfo {
