@@ -2,9 +2,10 @@
 // the surface bends away under it or towards it and stretches; it is followed in straight chords whose ends lie on it.
 //
 // THE LOCAL FRAME. Everything is written along the columns of the frame at the uv where the eye's ray passes the mesh:
-// one metre of pattern space along x, along y, and the unit normal. The surface's point there is the origin. A point of space p belongs
-// to the place (d, drop) of pattern space, d metres from the origin, with
-//     p = P(d) - drop N(d),   P(d) = (d, 0) + (xx d.x d.x + 2 xy d.x d.y + yy d.y d.y) / 2,   N(d) ~ (turn d, 1).
+// one metre of pattern space along x, along y, and the unit normal. The surface's point there is the origin. A point of
+// space p belongs to the place (d, drop) of pattern space, d metres from the origin, with
+//     p = P(d) - drop N(d)
+//     P(d) = (d, 0) + (xx d.x d.x + 2 xy d.x d.y + yy d.y d.y) / 2 = (over, height),   N(d) ~ (turn over, 1).
 // So a point that is deep against the radius is met at its own scale, 1 - drop / radius, and not at the surface's.
 //
 // A MESH IS MADE OF FLAT TRIANGLES. How far they stand off the round surface that their vertices lie on follows from
@@ -56,12 +57,11 @@ struct BurinFound {
     vec2 place;  // where it is, metres; not moved into the tile
 };
 
-// Local point of a place, and its derivatives there.
+// The round surface over its tangent plane.
 struct BurinSpot {
-    vec3 dx;
-    vec3 dy;
-    vec3 up;    // of the surface there, (lean, 1)
-    vec3 point;  // of the object surface
+    vec2 lean;     // of its normal (lean, 1)
+    vec2 slope;    // of itself
+    float height;
 };
 
 // Requires: second derivatives along the local frame; the metric (x . x, x . y, y . y) of its first two columns; the
@@ -111,41 +111,48 @@ vec3 burin_second(BurinBend bend, vec2 d) {
     return bend.xx * (d.x * d.x) + bend.xy * (2.0f * d.x * d.y) + bend.yy * (d.y * d.y);
 }
 
-BurinSpot burin_spot(BurinBend bend, vec2 d) {
+// Of a point of the surface, known by its place over the tangent plane at the origin.
+BurinSpot burin_spot(BurinBend bend, vec2 over) {
     BurinSpot spot;
-    spot.dx = vec3(1.0f, 0.0f, 0.0f) + bend.xx * d.x + bend.xy * d.y;
-    spot.dy = vec3(0.0f, 1.0f, 0.0f) + bend.xy * d.x + bend.yy * d.y;
-    spot.up = vec3(bend.turn_x * d.x + bend.turn_y * d.y, 1.0f);
-    spot.point = vec3(d.x, d.y, 0.0f) + 0.5f * burin_second(bend, d);
+    spot.lean = bend.turn_x * over.x + bend.turn_y * over.y;
+    spot.slope = vec2(bend.xx.z * over.x + bend.xy.z * over.y, bend.xy.z * over.x + bend.yy.z * over.y);
+    spot.height = 0.5f * dot(spot.slope, over);
     return spot;
 }
 
-// Place (d, drop) of a local point, by Newton from a place nearby.
+// Place (d, drop) of a local point: Newton over the tangent plane, where nothing depends on how uv is laid out, from a
+// place nearby; then the stretch.
 vec3 burin_place(BurinBend bend, vec3 p, vec2 near) {
-    vec2 d = near;
-    BurinSpot spot = burin_spot(bend, d);
+    vec2 over = near;
+    BurinSpot spot = burin_spot(bend, over);
     for (int i = 0; i < 3; ++i) {
-        float fall = spot.point.z - p.z;
-        vec2 off = vec2(spot.point) - vec2(spot.up) * fall - vec2(p);
-        vec2 jx = vec2(spot.dx) - bend.turn_x * fall - vec2(spot.up) * spot.dx.z;
-        vec2 jy = vec2(spot.dy) - bend.turn_y * fall - vec2(spot.up) * spot.dy.z;
-        float area = jx.x * jy.y - jx.y * jy.x;
-        area = abs(area) > 1.0e-3f ? area : 1.0e-3f;
-        d = d - vec2(off.x * jy.y - off.y * jy.x, off.y * jx.x - off.x * jx.y) * (1.0f / area);
-        spot = burin_spot(bend, d);
+        float fall = spot.height - p.z;
+        vec2 off = over - spot.lean * fall - vec2(p);
+        vec2 jx = vec2(1.0f, 0.0f) - bend.turn_x * fall - spot.lean * spot.slope.x;
+        vec2 jy = vec2(0.0f, 1.0f) - bend.turn_y * fall - spot.lean * spot.slope.y;
+        float area = max(jx.x * jy.y - jx.y * jy.x, 1.0e-2f);
+        over = over - vec2(off.x * jy.y - off.y * jy.x, off.y * jx.x - off.x * jx.y) * (1.0f / area);
+        spot = burin_spot(bend, over);
     }
     // (lean, 1) is this much longer than the unit normal, since the lean is the negative slope of the surface.
-    float longer = sqrt(max(1.0f - dot(vec2(spot.up), vec2(spot.dx.z, spot.dy.z)), 1.0f));
-    return vec3(d.x, d.y, (spot.point.z - p.z) * longer);
+    float longer = sqrt(max(1.0f - dot(spot.lean, spot.slope), 1.0f));
+    vec2 d = over - 0.5f * vec2(burin_second(bend, over));
+    d = over - 0.5f * vec2(burin_second(bend, d));
+    return vec3(d.x, d.y, (spot.height - p.z) * longer);
 }
 
 // A normal of pattern space at a place, as a normal of the local frame; not of unit length.
 vec3 burin_bend_normal(BurinBend bend, vec2 d, float drop, vec3 normal) {
     if (!bend.bent) return normal;
-    BurinSpot spot = burin_spot(bend, d);
-    vec3 x = spot.dx - vec3(bend.turn_x.x, bend.turn_x.y, 0.0f) * drop;
-    vec3 y = spot.dy - vec3(bend.turn_y.x, bend.turn_y.y, 0.0f) * drop;
-    return cross(y, spot.up) * normal.x + cross(spot.up, x) * normal.y + cross(x, y) * normal.z;
+    BurinSpot spot = burin_spot(bend, d + 0.5f * vec2(burin_second(bend, d)));
+    vec2 x = vec2(1.0f, 0.0f) + vec2(bend.xx) * d.x + vec2(bend.xy) * d.y;
+    vec2 y = vec2(0.0f, 1.0f) + vec2(bend.xy) * d.x + vec2(bend.yy) * d.y;
+    vec2 lower_x = x - drop * (bend.turn_x * x.x + bend.turn_y * x.y);
+    vec2 lower_y = y - drop * (bend.turn_x * y.x + bend.turn_y * y.y);
+    vec3 along_x = vec3(lower_x.x, lower_x.y, dot(spot.slope, x));
+    vec3 along_y = vec3(lower_y.x, lower_y.y, dot(spot.slope, y));
+    vec3 up = vec3(spot.lean.x, spot.lean.y, 1.0f);
+    return cross(along_y, up) * normal.x + cross(up, along_x) * normal.y + cross(along_x, along_y) * normal.z;
 }
 
 // Chords that a stretch of a line needs. `fall`: drop per metre of it.
@@ -203,7 +210,7 @@ BurinSight burin_light_sight(BurinBend bend, BurinRay ray, float until, BurinFou
     sight.outward = true;
     vec2 d = found.place - start;
     BurinSpot spot = burin_spot(bend, d);
-    float rise = max(light.z - dot(vec2(light), vec2(spot.dx.z, spot.dy.z)), 1.0e-3f);
+    float rise = max(light.z - dot(vec2(light), spot.slope), 1.0e-3f);
     float second = burin_second(bend, vec2(light)).z;
     float square = rise * rise - 2.0f * second * found.hit.t;
     float stretch = square > 0.0f ? 2.0f * found.hit.t / (rise + sqrt(square)) : rise / second;

@@ -113,7 +113,8 @@ TEST(RenderOutline, OfABallIsThatOfItsGround) {
     std::size_t seen = 0;
     for (std::size_t i = 0; i < picture->texels.size(); i += 4) seen += picture->texels[i + 1] > 0;
     const double radius = std::sqrt(double(seen) / 3.14159265) / (256 / 2 / 1.03);
-    EXPECT_NEAR(radius, 1.0 - kGround, 0.006);
+    // The ray runs 0.4 m over the ball, where the second order itself is 0.003 m off.
+    EXPECT_NEAR(radius, 1.0 - kGround, 0.009);
 }
 
 }  // namespace
