@@ -66,6 +66,7 @@ class Neighbourhood {
                 edges.push_back({a, b});
                 edges.push_back({b, a});
             }
+        sum_directions();
         count_borders(edges);
         std::sort(edges.begin(), edges.end());
         edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
@@ -78,6 +79,10 @@ class Neighbourhood {
     Vec3 position(std::uint32_t i) const { return three(mesh_.positions, i); }
     Vec3 normal(std::uint32_t i) const { return three(mesh_.normals, i); }
     Vec2 uv(std::uint32_t i) const { return {double(mesh_.uvs[2 * i]), double(mesh_.uvs[2 * i + 1])}; }
+
+    // Means of the derivatives over the triangles around, by their area in uv; zero where they have none.
+    Vec3 mean_du(std::uint32_t i) const { return means_[i].du * (1.0 / std::max(means_[i].area, 1e-300)); }
+    Vec3 mean_dv(std::uint32_t i) const { return means_[i].dv * (1.0 / std::max(means_[i].area, 1e-300)); }
 
     // One edge away; two where the vertex lies on a border, since those on one side alone say too little.
     std::vector<std::uint32_t> around(std::uint32_t i) const {
@@ -105,6 +110,22 @@ class Neighbourhood {
         }
     }
 
+    void sum_directions() {
+        means_.resize(same_.size());
+        for (std::size_t i = 0; i + 2 < mesh_.indices.size(); i += 3) {
+            const std::uint32_t* corner = &mesh_.indices[i];
+            const Vec3 p = position(corner[1]) - position(corner[0]), q = position(corner[2]) - position(corner[0]);
+            const Vec2 a = uv(corner[1]) - uv(corner[0]), b = uv(corner[2]) - uv(corner[0]);
+            const double area = cross(a, b), side = area < 0.0 ? -1.0 : 1.0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                Mean& mean = means_[same_[corner[k]]];
+                mean.du = mean.du + (p * b.y - q * a.y) * side;
+                mean.dv = mean.dv + (q * a.x - p * b.x) * side;
+                mean.area += std::abs(area);
+            }
+        }
+    }
+
     // An edge of one triangle only is a border of its chart.
     void count_borders(std::vector<std::pair<std::uint32_t, std::uint32_t>> edges) {
         border_.assign(same_.size(), false);
@@ -116,7 +137,12 @@ class Neighbourhood {
         }
     }
 
+    struct Mean {
+        Vec3 du{}, dv{};
+        double area = 0.0;
+    };
     const SurfaceMesh& mesh_;
+    std::vector<Mean> means_;
     std::vector<std::uint32_t> same_, near_;
     std::vector<std::ptrdiff_t> first_;
     std::vector<bool> border_;
@@ -172,14 +198,23 @@ std::array<float, 3> stored(const Vec3& v) {
     return finite ? std::array{float(v[0]), float(v[1]), float(v[2])} : std::array{0.0f, 0.0f, 0.0f};
 }
 
+// Whether what was fitted is about what the triangles around say.
+bool agree(const Vec3& fitted, const Vec3& mean) {
+    const Vec3 off = fitted - mean;
+    return dot3(off, off) < 0.25 * dot3(mean, mean);
+}
+
 // `change`: how much the first derivatives vary from here to the neighbours, part of their length.
 SurfaceFrame frame_at(const Neighbourhood& mesh, std::uint32_t i, const FrameOptions& options, double& change) {
+    const Vec3 n = mesh.normal(i);
+    const Vec3 mean_du = mesh.mean_du(i) - n * dot3(mesh.mean_du(i), n), mean_dv = mesh.mean_dv(i) - n * dot3(mesh.mean_dv(i), n);
     Vec2 scale{1e-30, 1e-30};
     const std::vector<Witness> all = witnesses(mesh, i, options.crease_cosine, scale);
-    if (all.size() < 2) return {};
+    const SurfaceFrame mean{stored(mean_du), stored(mean_dv), {}, {}, {}};
+    if (all.size() < 2) return mean;
     std::array<Vec3, 5> d = fit_positions(all);
-    const Vec3 n = mesh.normal(i);
     for (Vec3& v : d) v = v - n * dot3(v, n);
+    if (!agree(d[0] * (1.0 / scale.x), mean_du) || !agree(d[1] * (1.0 / scale.y), mean_dv)) return mean;
     const Vec3 h = fit_curvature(all, n, d[0], d[1]);
     for (std::size_t k = 0; k < 3; ++k) d[2 + k] = d[2 + k] + n * h[k];
     const double first = std::max({length3(d[0]), length3(d[1]), 1e-300});

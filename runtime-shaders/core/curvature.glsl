@@ -26,6 +26,13 @@
 // The most that the offset surface may shrink at the lowest point: where it is rounder than that it would fold.
 #define BURIN_MOST_SHRINK 0.75f
 
+// Square of the angle by which the normal may turn over the spread of a triangle; from there to twice as much the
+// surface counts as flat by and by. About 30 degrees along an edge.
+#define BURIN_MOST_TURN 0.07f
+
+// The most that the surface may turn or stretch over one depth.
+#define BURIN_MOST_BEND 10.0f
+
 struct BurinBend {
     bool bent;  // false: flat and evenly stretched; the others are not asked
     vec3 entry;  // local point of the mesh where the eye's ray passes it
@@ -85,10 +92,19 @@ BurinBend burin_bend(vec3 xx, vec3 xy, vec3 yy, vec3 metric, vec3 spread) {
         bend.turn_x = bend.turn_x * less;
         bend.turn_y = bend.turn_y * less;
     }
+    // Normals that turn far over one triangle are those of a coarse mesh or of an edge, and no round surface.
+    float turned = (dot(bend.turn_x, bend.turn_x) * metric.x * spread.x + dot(bend.turn_y, bend.turn_y) * metric.z * spread.z);
+    float round = clamp(2.0f - turned / BURIN_MOST_TURN, 0.0f, 1.0f);
+    bend.xx = bend.xx * round;
+    bend.xy = bend.xy * round;
+    bend.yy = bend.yy * round;
+    bend.turn_x = bend.turn_x * round;
+    bend.turn_y = bend.turn_y * round;
     bend.entry = 0.5f * (bend.xx * spread.x + bend.yy * spread.z) + bend.xy * spread.y;
-    // What the surface turns and stretches over one depth; less than rounding makes of it is nothing.
-    float most = max(max(length(xx), length(xy)), length(yy));
-    bend.bent = most * burin_map.depth > 1.0e-6f;
+    // What the surface turns and stretches over one depth; less than rounding makes of it is nothing, and far too much is
+    // a broken triangle.
+    float most = max(max(length(bend.xx), length(bend.xy)), length(bend.yy));
+    bend.bent = most * burin_map.depth > 1.0e-6f && most * burin_map.depth < BURIN_MOST_BEND;
     return bend;
 }
 
@@ -124,6 +140,7 @@ BurinSpot burin_spot(BurinBend bend, vec2 over) {
 // place nearby; then the stretch.
 vec3 burin_place(BurinBend bend, vec3 p, vec2 near) {
     vec2 over = near;
+    float most = length(vec2(p)) * (1.0f / (1.0f - BURIN_MOST_SHRINK));
     BurinSpot spot = burin_spot(bend, over);
     for (int i = 0; i < 3; ++i) {
         float fall = spot.height - p.z;
@@ -132,6 +149,8 @@ vec3 burin_place(BurinBend bend, vec3 p, vec2 near) {
         vec2 jy = vec2(0.0f, 1.0f) - bend.turn_y * fall - spot.lean * spot.slope.y;
         float area = max(jx.x * jy.y - jx.y * jy.x, 1.0e-2f);
         over = over - vec2(off.x * jy.y - off.y * jy.x, off.y * jx.x - off.x * jx.y) * (1.0f / area);
+        // As far as the surface may shrink; what is beyond it has no place.
+        over = over * min(1.0f, most / max(length(over), 1.0e-20f));
         spot = burin_spot(bend, over);
     }
     // (lean, 1) is this much longer than the unit normal, since the lean is the negative slope of the surface.
@@ -183,13 +202,18 @@ BurinSight burin_eye_sight(BurinBend bend, BurinRay ray, vec3 direction) {
     float fall = max(-direction.z, 1.0e-6f);
     float second = burin_second(bend, vec2(direction)).z;
     float below = -bend.entry.z;
-    float turned = sqrt(max(fall * fall - 2.0f * second * below, 0.0f));
+    float turned = fall * fall - 2.0f * second * below;
     sight.from = bend.entry;
-    sight.first = -2.0f * below / (fall + turned);
-    fall = max(turned, 1.0e-3f);
-    sight.fall = fall;
+    // One that would pass the round surface by begins on the mesh.
+    if (turned > 1.0e-6f) {
+        turned = sqrt(turned);
+        sight.first = -2.0f * below / (fall + turned);
+        fall = turned;
+    }
+    sight.fall = max(fall, 1.0e-3f);
     float square = fall * fall + 2.0f * second * burin_map.depth;
     float stretch = square > 0.0f ? 2.0f * burin_map.depth / (fall + sqrt(square)) : -2.0f * fall / second;
+    stretch = min(stretch, 1.0e3f * burin_map.depth);
     sight.chords = burin_chord_count(bend, vec2(direction), fall, stretch);
     sight.chord = stretch / float(sight.chords);
     // It may take somewhat longer than to second order.
@@ -256,7 +280,8 @@ BurinFound burin_trace_sight(BurinBend bend, vec2 start, BurinSight sight) {
         here = burin_place(bend, sight.from + sight.along * s, sight.near) + sight.shift;
         if (!sight.outward) {
             // Exactly on the object surface, or ground that lies there would count as a wall.
-            s = s - here.z / sight.fall;
+            float off = abs(sight.from.z);
+            s = s - clamp(here.z, -off, off) / sight.fall;
             here = burin_place(bend, sight.from + sight.along * s, vec2(here));
             here.z = 0.0f;
         }

@@ -19,6 +19,12 @@ bool has_frames() {
     return dot(world_duu, world_duu) + dot(world_duv, world_duv) + dot(world_dvv, world_dvv) > 0.0;
 }
 
+// They go with the triangle: the same side up, and not next to nothing, as they become at a pole.
+bool frames_hold(vec3 n, vec3 du, vec3 dv, vec3 along_u, vec3 along_v) {
+    float area = dot(n, cross(along_u, along_v));
+    return dot(n, cross(du, dv)) * area > 0.05 * area * area;
+}
+
 // `own`: the frame comes from the vertices' own directions, with which these go.
 BurinBend pattern_bend(vec2 uv, mat3 frame, mat3 to_local, bool own) {
     vec3 spread = uv_products - vec3(uv.x * uv.x, uv.x * uv.y, uv.y * uv.y);

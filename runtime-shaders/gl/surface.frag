@@ -38,8 +38,9 @@ mat3 pattern_frame(vec3 n, BURIN_OUT(bool) own) {
     vec3 along_v;
     derived_directions(along_u, along_v);
     // Where mirrored faces meet, what the mesh brings cancels out.
-    own = has_frames() || (dot(world_along_u, along_u) > 0.5 * dot(along_u, along_u) &&
-                           dot(world_along_v, along_v) > 0.5 * dot(along_v, along_v));
+    own = dot(world_along_u, along_u) > 0.5 * dot(along_u, along_u) &&
+          dot(world_along_v, along_v) > 0.5 * dot(along_v, along_v);
+    if (has_frames()) own = frames_hold(n, world_along_u, world_along_v, along_u, along_v);
     vec3 along_x = (own ? world_along_u : along_u) / burin_map.size.x;
     vec3 along_y = (own ? world_along_v : along_v) / burin_map.size.y;
     return mat3(along_x - n * dot(along_x, n), along_y - n * dot(along_y, n), n);

@@ -37,7 +37,7 @@ struct SurfaceMesh {
 struct FrameOptions {
     // Neighbours whose normals differ by more say nothing about how round the surface is: there is an edge, or the mesh is
     // too coarse to tell. Cosine, range (-1, 1).
-    double crease_cosine = 0.5;
+    double crease_cosine = 0.8;
     // A mesh whose first derivatives change by less from each vertex to the next is flat and evenly stretched: no frames
     // are needed. Part of their length, range [0, 1).
     double flat = 1e-4;
@@ -45,7 +45,8 @@ struct FrameOptions {
 
 // One frame per vertex, in the order of the vertices: least squares over the vertices one edge away, two edges where that
 // is a border, of the positions and, for the curvature, the normals. Vertices that are stored more than once with equal
-// position, normal and uv count as one; across a seam of the uvs nothing is shared.
+// position, normal and uv count as one; across a seam of the uvs nothing is shared. Where that says nothing, or something
+// else than the triangles around the vertex, first derivatives are their mean and second ones 0.
 // Requires: sizes that belong together, indices in range, finite values.
 // Ensures: finite values; `du` and `dv` are square to the normal; none at all (an empty vector) when the whole mesh is flat
 // and evenly stretched, so that its triangles tell as much.
