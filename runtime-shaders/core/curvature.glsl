@@ -142,7 +142,7 @@ vec3 burin_place(BurinBend bend, vec3 p, vec2 near) {
     vec2 over = near;
     float most = length(vec2(p)) * (1.0f / (1.0f - BURIN_MOST_SHRINK));
     BurinSpot spot = burin_spot(bend, over);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 2; ++i) {
         float fall = spot.height - p.z;
         vec2 off = over - spot.lean * fall - vec2(p);
         vec2 jx = vec2(1.0f, 0.0f) - bend.turn_x * fall - spot.lean * spot.slope.x;
