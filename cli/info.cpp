@@ -41,7 +41,8 @@ void add_pattern(std::vector<Field>& row, const MaterialInfo& material, const Un
                       {"quadratics", "quadratics", std::int64_t{quadratics}, ""},
                       {"profiles", "profiles", count_of(unpacked.pattern.profiles.size()), ""},
                       {"styles", "styles", count_of(unpacked.pattern.styles.size()), ""},
-                      {"materials", "materials", count_of(unpacked.pattern.materials.size()), ""}}));
+                      {"materials", "materials", count_of(unpacked.pattern.materials.size()), ""},
+                      {"functions", "functions along paths", count_of(unpacked.pattern.functions.size()), ""}}));
     row.push_back(group("textures", "textures",
                      {{"grid_width", "", std::int64_t{detail.grid_width}, ""},
                       {"grid_height", "", std::int64_t{detail.grid_height}, ""},

@@ -110,6 +110,10 @@ std::vector<OptionSpec> make_table() {
          "other meshes are hidden by the relief and not by the mesh that carries it"},
         {"--samples", "render", integer, "COUNT", "", plain(render.samples), 1, 256, "", false,
          "samples per pixel; with --top one unless given"},
+        {"--antialiasing", "render", choice, "WHICH", "", "regions", 0, 0, "regions|points", false,
+         "filter features as areas, by rays where they meet; or by rays alone"},
+        {"--rays", "render", integer, "COUNT", "", plain(render.rays), 4, 64, "", false,
+         "rays per sample where features meet in a pixel"},
         {"--backend", "render check", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl", false,
          "OpenGL by OSMesa, which needs no GPU, or by EGL"},
 

@@ -74,6 +74,8 @@ RenderOptions render_options(const Arguments& arguments) {
     options.shadows = !arguments.flag("--no-shadows");
     options.correct_depth = arguments.flag("--correct-depth");
     options.samples = arguments.integer("--samples");
+    options.antialiasing = arguments.text("--antialiasing") == "points" ? Antialiasing::points : Antialiasing::regions;
+    options.rays = arguments.integer("--rays");
     options.backend = backend_of(arguments);
     return options;
 }

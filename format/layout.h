@@ -14,6 +14,9 @@
 #define BURIN_MAX_PROFILE_TEXELS 65536
 #define BURIN_MAX_MATERIALS 512
 #define BURIN_MAX_LIST_TEXELS 131072
+#define BURIN_MAX_FUNCTION_TEXELS 65536
+#define BURIN_MAX_OCTAVES 8
+#define BURIN_MAX_NOISE_PERIOD 65536
 // Lengths in metres (size, depth, reach): within these their squares and quotients stay finite in 32-bit floats.
 #define BURIN_MIN_LENGTH 1.0e-9
 #define BURIN_MAX_LENGTH 1.0e9
@@ -41,15 +44,22 @@
 #define BURIN_START_STEPS 1021
 #define BURIN_START_SPREAD 1361.0
 
-// ---- data texture: RGBA32UI; sections elements, styles, profiles, materials, lists, each starting on a texel -
+// ---- data texture: RGBA32UI; sections elements, styles, profiles, materials, lists, functions, each from a texel on
 // Element, texel A:
 //   x: 0-19 p0.u, 20-31 clip angle at the start      y: 0-19 p0.v, 20-31 clip angle at the end
-//   z: 0-19 p2.u, 20-23 start end-kind, 24-27 end end-kind, 28 quadratic, 29 has texel B
+//   z: 0-19 p2.u, 20-23 start end-kind, 24-27 end end-kind, 28 quadratic, 29 has texel B,
+//      30 has texel C
 //   w: 0-19 p2.v, 20-31 style
 // Element, texel B (when flagged; always for quadratics):
 //   x: 0-19 p1.u, 20-31 unused (zero)                  y: 0-19 p1.v, 20-31 unused (zero)
 //   z: 0-15 width scale at start, 16-31 at end           w: 0-15 height scale at start, 16-31 at end
 //   (p1 is ignored, and zero, for a line.) Without texel B all four scales are 1.
+// Element, texel C (when flagged; behind B, or behind A where there is no B): a function multiplies the scales
+//   x: argument at start                               y: argument at end, not less than at the start
+//   z: 0-15 the function's first texel (from the start of the function section), 16-31 unused (zero)    w: unused (zero)
+// Arguments: value = code / 65536, range [0, 65536). Without texel C both factors are 1.
+#define BURIN_ARGUMENT_BITS 16
+#define BURIN_ARGUMENT_STEPS 65536.0
 // Coordinates are uv: value = code / BURIN_COORDINATE_STEPS - 0.5, range [-0.5, 1.5).
 #define BURIN_COORDINATE_BITS 20
 #define BURIN_COORDINATE_STEPS 524288.0
@@ -89,6 +99,20 @@
 // Lists: 16-bit references, eight to a texel, low half first. A reference is the element's texel, counted from the
 // start of the element section.
 #define BURIN_REFS_PER_TEXEL 8
+// Function, head texel: x: 0-1 kind, 2-5 octaves (noise; else 0)    y: amplitude of width 0-15, of height 16-31, SNORM16
+//                       z: seed (noise; else 0)                      w: period (noise; 0: none, else 0)
+// Only a polynomial has two more texels, c0 to c3 of width and of height as float32 bits; its y is 0.
+#define BURIN_FUNCTION_SINE 0u
+#define BURIN_FUNCTION_POLYNOMIAL 1u
+#define BURIN_FUNCTION_NOISE 2u
+// Noise: octave k has lattice points at every 2^-k of the argument, moved by -0.375 k 2^-k. Point i has the bits
+//   h = i + seed * MIX_SEED + k * MIX_OCTAVE;  h = (h ^ h >> 16) * MIX_A;  h = (h ^ h >> 15) * MIX_B;  h = h ^ h >> 16
+// whose low half is the value for width and whose high half that for height: half / 32767.5 - 1.
+#define BURIN_NOISE_MIX_SEED 0x9e3779b9u
+#define BURIN_NOISE_MIX_OCTAVE 0x85ebca6bu
+#define BURIN_NOISE_MIX_A 0x7feb352du
+#define BURIN_NOISE_MIX_B 0x846ca68bu
+#define BURIN_NOISE_SHIFT 0.375
 // Material texel: x: base colour RGBA8 (linear, R lowest), y: 0-7 metallic, 8-15 roughness, 16 overrides the glTF
 // material. Material 0 always exists; without the override bit the glTF material holds.
 

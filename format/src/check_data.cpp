@@ -79,7 +79,7 @@ std::int32_t last_height(const PackedTextures& textures, const StyleCode& style,
 
 void check_element(const PackedTextures& textures, const PathDetail& detail, const DecodedData& data,
                    const ElementCode& e, const std::string& place, Reporter& reporter) {
-    if (e.unused != 0) reporter.report(4002, "bits without meaning are set, all must be 0", place);
+    if (e.unused != 0 || e.unused_c) reporter.report(4002, "bits without meaning are set, all must be 0", place);
     if (e.quadratic && !e.has_texel_b) reporter.report(4003, "a quadratic has no texel B", place);
     if (!e.quadratic && e.has_texel_b && !(e.p1 == PointCode{})) {
         reporter.report(4004, "a line has p1 codes " + text(e.p1.u) + ", " + text(e.p1.v) + ", 0 is needed",
@@ -105,17 +105,18 @@ void check_elements(const PackedTextures& textures, const PathDetail& detail, De
     for (std::uint32_t at = 0; at < count;) {
         const std::string place = "element at texel " + text(at);
         const Texel a = data_texel(textures, at);
-        const bool two = element_has_texel_b(a), cut = two && at + 1 == count;
+        const std::uint32_t texels = element_texel_count(a);
+        const bool cut = at + texels > count;
         if (cut) {
-            reporter.report(4001, "texel B would lie behind the section of " + text(count) + " texels",
-                            place);
+            reporter.report(4001, "its " + text(texels) + " texels reach behind the section of " + text(count), place);
         }
-        const ElementCode element = unpack_element(a, two && !cut ? data_texel(textures, at + 1) : Texel{});
+        const ElementCode element = cut ? unpack_element(a, {}) : element_at(textures, at);
         data.element_at[at] = static_cast<std::uint32_t>(data.elements.size());
         data.elements.push_back(element);
         data.element_texel.push_back(at);
         check_element(textures, detail, data, element, place, reporter);
-        at += two ? 2 : 1;
+        if (!cut) check_function_of(textures, data, element, place, reporter);
+        at += texels;
     }
 }
 
@@ -234,6 +235,7 @@ DecodedData check_data(const PackedTextures& textures, const PathDetail& detail,
     for (std::uint32_t i = 0; i < detail.sections.style_texels; ++i) {
         data.styles.push_back(unpack_style(data_texel(textures, textures.sections.styles_begin() + i)));
     }
+    check_functions(textures, data, reporter);
     check_elements(textures, detail, data, reporter);
     for (std::uint32_t i = 0; i < data.styles.size(); ++i) {
         check_style(textures, detail.sections, data.styles[i], "style " + text(i), reporter);

@@ -176,10 +176,12 @@ void read_sections(const json& data, PathDetail& detail, Reporter& reporter) {
         {"profiles", 0, BURIN_MAX_PROFILE_TEXELS, &Sections::profile_texels},
         {"materials", 1, BURIN_MAX_MATERIALS, &Sections::material_texels},
         {"lists", 0, BURIN_MAX_LIST_TEXELS, &Sections::list_texels},
+        {"functions", 0, BURIN_MAX_FUNCTION_TEXELS, &Sections::function_texels},
     };
     bool complete = true;
     for (const auto& row : rows) {
         std::int64_t number = 0;
+        if (row.member == &Sections::function_texels && !data.contains(row.name)) continue;  // the one that may be absent
         if (read_count(data, "/data", row.name, row.low, row.high, 2015, number, reporter)) {
             detail.sections.*row.member = static_cast<std::uint32_t>(number);
         } else {
@@ -281,6 +283,7 @@ std::string write_extension(const PathDetail& d) {
                          {"profiles", d.sections.profile_texels},
                          {"materials", d.sections.material_texels},
                          {"lists", d.sections.list_texels}};
+    if (d.sections.function_texels > 0) extension["data"]["functions"] = d.sections.function_texels;
     if (d.residual_texture >= 0) {
         extension["residualTexture"] = {
             {"index", d.residual_texture}, {"texCoord", d.tex_coord}, {"scale", d.residual_scale}};

@@ -71,6 +71,9 @@ constexpr IssueKind kKinds[] = {
     {4009, kError, "element is longer than the tile"},
     {4010, kError, "height scale varies along a step"},
     {4011, kError, "right level is not where the step's profile ends"},
+    {4012, kError, "function index is not a function"},
+    {4013, kError, "argument falls along an element or leaves the period"},
+    {4014, kError, "function changes the height of a step"},
     {4020, kError, "profile exceeds the profile section"},
     {4021, kError, "number of profile points is out of range"},
     {4022, kError, "material index is out of range"},
@@ -89,6 +92,10 @@ constexpr IssueKind kKinds[] = {
     {4051, kError, "references of a list do not grow"},
     {4052, kError, "reference outside of all lists is not 0"},
     {4053, kError, "texel behind the last section is not 0"},
+    {4060, kError, "function has no meaning or exceeds the function section"},
+    {4061, kError, "unused bits of a function are set"},
+    {4062, kError, "amplitude, octaves or period is out of range"},
+    {4063, kError, "polynomial leaves [0, 4)"},
     {9001, kInformation, "further findings of one number"},
 };
 

@@ -86,23 +86,27 @@ CellCode unpack_cell(const CellTexel& t) {
     return c;
 }
 
-std::array<Texel, 2> pack_element(const ElementCode& e) {
+std::array<Texel, 3> pack_element(const ElementCode& e) {
     assert(e.has_texel_b || !e.quadratic);
     const Texel a = {place(e.p0.u, 0, kCoordinate) | place(e.start.clip_angle, kCoordinate, kAngle),
                      place(e.p0.v, 0, kCoordinate) | place(e.end.clip_angle, kCoordinate, kAngle),
                      place(e.p2.u, 0, kCoordinate) | place(end_kind(e.start), 20, 4) |
                          place(end_kind(e.end), 24, 4) | (e.quadratic ? 1u << 28 : 0u) |
-                         (e.has_texel_b ? 1u << 29 : 0u) | place(e.unused & 3u, 30, 2),
+                         (e.has_texel_b ? 1u << 29 : 0u) | (e.has_texel_c ? 1u << 30 : 0u) |
+                         place(e.unused & 1u, 31, 1),
                      place(e.p2.v, 0, kCoordinate) | place(e.style, 20, 12)};
-    if (!e.has_texel_b) return {a, Texel{}};
-    const Texel b = {place(e.p1.u, 0, kCoordinate) | place(field(e.unused, 2, 12), 20, 12),
-                     place(e.p1.v, 0, kCoordinate) | place(field(e.unused, 14, 12), 20, 12),
+    const Texel c = e.has_texel_c ? Texel{e.argument0, e.argument1,
+                                          place(e.function, 0, 16) | (e.unused_c ? 1u << 31 : 0u), 0}
+                                  : Texel{};
+    if (!e.has_texel_b) return {a, Texel{}, c};
+    const Texel b = {place(e.p1.u, 0, kCoordinate) | place(field(e.unused, 1, 12), 20, 12),
+                     place(e.p1.v, 0, kCoordinate) | place(field(e.unused, 13, 12), 20, 12),
                      place(e.width0, 0, 16) | place(e.width1, 16, 16),
                      place(e.height0, 0, 16) | place(e.height1, 16, 16)};
-    return {a, b};
+    return {a, b, c};
 }
 
-ElementCode unpack_element(const Texel& a, const Texel& b) {
+ElementCode unpack_element(const Texel& a, const Texel& b, const Texel& c) {
     ElementCode e;
     e.p0 = {field(a[0], 0, kCoordinate), field(a[1], 0, kCoordinate)};
     e.p2 = {field(a[2], 0, kCoordinate), field(a[3], 0, kCoordinate)};
@@ -110,11 +114,18 @@ ElementCode unpack_element(const Texel& a, const Texel& b) {
     e.end = end_from(field(a[2], 24, 4), field(a[1], kCoordinate, kAngle));
     e.quadratic = field(a[2], 28, 1) != 0;
     e.has_texel_b = field(a[2], 29, 1) != 0;
-    e.unused = field(a[2], 30, 2);
+    e.has_texel_c = field(a[2], 30, 1) != 0;
+    e.unused = field(a[2], 31, 1);
     e.style = field(a[3], 20, 12);
+    if (e.has_texel_c) {
+        e.argument0 = c[0];
+        e.argument1 = c[1];
+        e.function = field(c[2], 0, 16);
+        e.unused_c = field(c[2], 16, 16) != 0 || c[3] != 0;
+    }
     if (!e.has_texel_b) return e;
     e.p1 = {field(b[0], 0, kCoordinate), field(b[1], 0, kCoordinate)};
-    e.unused |= field(b[0], 20, 12) << 2 | field(b[1], 20, 12) << 14;
+    e.unused |= field(b[0], 20, 12) << 1 | field(b[1], 20, 12) << 13;
     e.width0 = field(b[2], 0, 16);
     e.width1 = field(b[2], 16, 16);
     e.height0 = field(b[3], 0, 16);
@@ -123,6 +134,37 @@ ElementCode unpack_element(const Texel& a, const Texel& b) {
 }
 
 bool element_has_texel_b(const Texel& a) { return field(a[2], 29, 1) != 0; }
+bool element_has_texel_c(const Texel& a) { return field(a[2], 30, 1) != 0; }
+std::uint32_t element_texel_count(const Texel& a) { return 1u + field(a[2], 29, 1) + field(a[2], 30, 1); }
+
+std::array<Texel, 3> pack_function(const FunctionCode& f) {
+    std::array<Texel, 3> texels{};
+    texels[0] = {place(f.kind, 0, 2) | place(f.octaves, 2, 4) | place(field(f.unused, 0, 26), 6, 26),
+                 pack_profile_point({f.width, f.height}), f.seed, f.period};
+    for (unsigned i = 0; i < 8 && f.kind == BURIN_FUNCTION_POLYNOMIAL; ++i)
+        texels[1 + i / 4][i % 4] = std::bit_cast<std::uint32_t>(f.coefficients[i]);
+    return texels;
+}
+
+FunctionCode unpack_function(const std::array<Texel, 3>& texels) {
+    const Texel& head = texels[0];
+    FunctionCode f;
+    f.kind = field(head[0], 0, 2);
+    f.octaves = field(head[0], 2, 4);
+    f.unused = field(head[0], 6, 26);
+    const ProfilePointCode amplitudes = unpack_profile_point(head[1]);
+    f.width = amplitudes.b;
+    f.height = amplitudes.h;
+    f.seed = head[2];
+    f.period = head[3];
+    for (unsigned i = 0; i < 8 && f.kind == BURIN_FUNCTION_POLYNOMIAL; ++i)
+        f.coefficients[i] = std::bit_cast<float>(texels[1 + i / 4][i % 4]);
+    return f;
+}
+
+std::uint32_t function_texel_count(const Texel& head) {
+    return field(head[0], 0, 2) == BURIN_FUNCTION_POLYNOMIAL ? 3u : 1u;
+}
 
 Texel pack_style(const StyleCode& s) {
     return {place(s.profile_texel, 0, 16) | place(s.point_count, 16, kPoints) |
@@ -191,6 +233,21 @@ std::uint32_t list_reference(const PackedTextures& textures, std::uint32_t index
     return field(textures.data[word], 16 * (index & 1u), 16);
 }
 
+ElementCode element_at(const PackedTextures& textures, std::uint32_t texel) {
+    const Texel a = data_texel(textures, texel);
+    const std::uint32_t count = element_texel_count(a);
+    return unpack_element(a, count > 1 ? data_texel(textures, texel + 1) : Texel{},
+                          count > 1 ? data_texel(textures, texel + count - 1) : Texel{});
+}
+
+FunctionCode function_at(const PackedTextures& textures, std::uint32_t texel) {
+    const std::uint32_t at = textures.sections.functions_begin() + texel;
+    std::array<Texel, 3> texels{};
+    texels[0] = data_texel(textures, at);
+    for (std::uint32_t i = 1; i < function_texel_count(texels[0]); ++i) texels[i] = data_texel(textures, at + i);
+    return unpack_function(texels);
+}
+
 bool encode_coordinate(double uv, std::uint32_t& code) {
     constexpr std::int64_t kTile = static_cast<std::int64_t>(BURIN_COORDINATE_STEPS);
     if (!(std::abs(uv) < 4.0)) return false;
@@ -220,6 +277,12 @@ bool encode_scale(double scale, std::uint32_t& code) {
 }
 
 double decode_scale(std::uint32_t code) { return code / BURIN_SCALE_STEPS; }
+
+bool encode_argument(double argument, std::uint32_t& code) {
+    return encode_unsigned(argument * BURIN_ARGUMENT_STEPS, 0xFFFFFFFFu, code);
+}
+
+double decode_argument(std::uint32_t code) { return code / BURIN_ARGUMENT_STEPS; }
 
 bool encode_unorm16(double value, std::uint32_t& code) {
     return encode_unsigned(value * 65535.0, 65535, code);

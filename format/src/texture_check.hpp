@@ -19,12 +19,19 @@ struct DecodedData {
     std::vector<std::uint32_t> element_texel;  // texel of each element
     std::vector<std::uint32_t> element_at;     // per texel of the section: index into `elements`, or kNone
     std::vector<StyleCode> styles;
+    std::vector<std::uint8_t> is_function;  // per texel of the function section: a function begins there
 
     // Style of the element, nullptr when its index is out of range.
     const StyleCode* style_of(const ElementCode& element) const {
         return element.style < styles.size() ? &styles[element.style] : nullptr;
     }
 };
+
+// 4060-4063: the function section; fills `data.is_function`.
+void check_functions(const PackedTextures& textures, DecodedData& data, Reporter& reporter);
+// 4012-4014: what an element says of its function. Requires: check_functions went before.
+void check_function_of(const PackedTextures& textures, const DecodedData& data, const ElementCode& element,
+                       const std::string& place, Reporter& reporter);
 
 // 4001-4048 and 4053: sections elements, styles, profiles, materials, and what follows the last one.
 DecodedData check_data(const PackedTextures& textures, const PathDetail& detail, Reporter& reporter);

@@ -49,11 +49,12 @@ bool check_sizes(const PackedTextures& t, const PathDetail& d, Reporter& reporte
     const Sections& s = t.sections;
     const bool limits = s.element_texels <= BURIN_MAX_ELEMENT_TEXELS && s.style_texels <= BURIN_MAX_STYLES &&
                         s.profile_texels <= BURIN_MAX_PROFILE_TEXELS && s.material_texels >= 1 &&
-                        s.material_texels <= BURIN_MAX_MATERIALS && s.list_texels <= BURIN_MAX_LIST_TEXELS;
+                        s.material_texels <= BURIN_MAX_MATERIALS && s.list_texels <= BURIN_MAX_LIST_TEXELS &&
+                        s.function_texels <= BURIN_MAX_FUNCTION_TEXELS;
     const bool equal =
         s.element_texels == d.sections.element_texels && s.style_texels == d.sections.style_texels &&
         s.profile_texels == d.sections.profile_texels && s.material_texels == d.sections.material_texels &&
-        s.list_texels == d.sections.list_texels;
+        s.list_texels == d.sections.list_texels && s.function_texels == d.sections.function_texels;
     if (!limits || !equal) {
         reporter.report(2015,
                         "a section's length is beyond its limit or not the one that the extension states");

@@ -180,6 +180,11 @@ Local evaluate_form(const PreparedElement& e, const Form& form, Vec2 p, const Fo
     }
     local.width = e.width0 + e.width_rise * foot.parameter;
     local.height = e.height0 + e.height_rise * foot.parameter;
+    if (e.function != nullptr) {
+        const Factors factors = factors_on(e, foot.parameter);
+        local.width *= factors.width;
+        local.height *= factors.height;
+    }
     return local;
 }
 
@@ -211,8 +216,10 @@ LocalGradient gradient_of(const PreparedElement& e, const Form& form, Vec2 p, co
         const double denominator = dot(d, d) + dot(point_on(e, foot.parameter) - p, e.bend * 2.0);
         if (denominator != 0.0) rate = d * (1.0 / denominator);
     }
-    out.width = rate * e.width_rise;
-    out.height = rate * e.height_rise;
+    const Factors factors = factors_on(e, foot.parameter);
+    const double width = e.width0 + e.width_rise * foot.parameter, height = e.height0 + e.height_rise * foot.parameter;
+    out.width = rate * (e.width_rise * factors.width + width * factors.width_rate);
+    out.height = rate * (e.height_rise * factors.height + height * factors.height_rate);
     return out;
 }
 

@@ -76,8 +76,19 @@ Box box_of(const PreparedElement& e, const Element& source) {
     return box;
 }
 
-PreparedElement prepare_element(const ResolvedElement& resolved, const Style& style,
-                                const PreparedProfile& profile) {
+void prepare_function(const ResolvedElement& resolved, const std::vector<ScaleFunction>& functions, PreparedElement& e) {
+    if (resolved.function == kNoFunction) return;
+    const Element& source = resolved.element;
+    e.function = &functions[resolved.function];
+    e.argument0 = source.argument0;
+    e.argument_rise = source.argument1 - source.argument0;
+    e.run = truth::run_to(e, 1.0).length;
+    e.scaled = true;
+    truth::bound_factors(e);
+}
+
+PreparedElement prepare_element(const ResolvedElement& resolved, const Style& style, const PreparedProfile& profile,
+                                const std::vector<ScaleFunction>& functions) {
     const Element& source = resolved.element;
     PreparedElement e;
     e.kind = source.kind;
@@ -92,11 +103,12 @@ PreparedElement prepare_element(const ResolvedElement& resolved, const Style& st
     e.height0 = source.height0;
     e.height_rise = source.height1 - source.height0;
     e.scaled = e.width_rise != 0.0 || e.height_rise != 0.0;
+    prepare_function(resolved, functions, e);
     e.step = style.step;
     e.profile = style.profile;
     e.level = e.left_level = e.right_level = style.level;
     if (style.step) e.right_level += (profile.points.back().h - profile.points.front().h) * source.height0;
-    e.reach = std::max(-profile.low, profile.high) * std::max(source.width0, source.width1);
+    e.reach = std::max(-profile.low, profile.high) * std::max(source.width0, source.width1) * e.width_bound;
     e.ends[0] = prepare_end(resolved.start, e.p0, truth::tangent_on(e, 0.0), true);
     e.ends[1] = prepare_end(resolved.end, e.p2, truth::tangent_on(e, 1.0), false);
     e.box = box_of(e, source);
@@ -109,7 +121,7 @@ void bound_heights(Truth::Prepared& truth) {
     for (const PreparedElement& e : truth.elements) {
         truth.levels.push_back(e.left_level);
         truth.levels.push_back(e.right_level);
-        const double scale = std::max(e.height0, e.height0 + e.height_rise);
+        const double scale = std::max(e.height0, e.height0 + e.height_rise) * e.height_bound;
         for (const ProfilePoint& point : truth.profiles[e.profile].points) {
             truth.lowest = std::min(truth.lowest, e.level + std::min(0.0, scale * point.h));
             truth.highest = std::max(truth.highest, e.level + std::max(0.0, scale * point.h));
@@ -134,12 +146,13 @@ Truth::Truth(const ResolvedPattern& pattern, const TruthOptions& options)
     out.level_tolerance = options.level_tolerance * pattern.depth;
     out.max_tiles = options.max_tiles;
     for (const ResolvedProfile& profile : pattern.profiles) out.profiles.push_back(prepare_profile(profile));
+    out.functions = pattern.functions;
     for (const ResolvedElement& element : pattern.elements) {
         assert(element.style < pattern.styles.size());
         const Style& style = pattern.styles[element.style];
         assert(style.profile < pattern.profiles.size());
         if (style.step) out.steps.push_back(static_cast<std::uint32_t>(out.elements.size()));
-        out.elements.push_back(prepare_element(element, style, out.profiles[style.profile]));
+        out.elements.push_back(prepare_element(element, style, out.profiles[style.profile], out.functions));
     }
     out.all.resize(out.elements.size());
     std::iota(out.all.begin(), out.all.end(), 0u);

@@ -38,6 +38,11 @@ struct PreparedElement {
     PreparedEnd ends[2];
     double width0 = 1, width_rise = 0, height0 = 1, height_rise = 0;
     bool scaled = false;  // a scale varies along the element
+    // Function along the path, if any, and what its argument is made of.
+    const ScaleFunction* function = nullptr;
+    double argument0 = 0, argument_rise = 0;
+    double run = 1;  // quadratic: L(1) of resolve.hpp
+    double width_bound = 1, height_bound = 1;  // greatest factors
     bool step = false;
     std::uint32_t profile = 0;
     double level = 0, left_level = 0, right_level = 0;
@@ -53,6 +58,7 @@ struct Truth::Prepared {
     std::vector<double> levels;      // every level of ground that occurs
     std::vector<PreparedElement> elements;
     std::vector<PreparedProfile> profiles;
+    std::vector<ScaleFunction> functions;
     std::vector<std::uint32_t> steps;  // elements that change the ground
     std::vector<std::uint32_t> all;    // 0, 1, 2, ...
 };
@@ -72,6 +78,19 @@ struct Form {
     std::uint8_t end = 0;  // index of the end that rules, for all but plain
     double sign = 1.0;
 };
+
+// What the function of an element makes of its scales at u, and the rates of that per u.
+struct Factors {
+    double width = 1, height = 1, width_rate = 0, height_rate = 0;
+};
+Factors factors_on(const PreparedElement& e, double u);
+// Of a quadratic: L of resolve.hpp, the integral of |B'| / 2, and its rate.
+struct Run {
+    double length = 0, rate = 0;
+};
+Run run_to(const PreparedElement& e, double u);
+// Bounds of both factors over all arguments of an element, by what a function of its kind can give.
+void bound_factors(PreparedElement& e);
 
 // Nearest point of the carrier.
 struct Foot {

@@ -64,6 +64,7 @@ class Tracer {
     void gather_ground_events(double begin, double end);
     void gather_element_events(const Near& near, double begin, double end);
     void gather_breaks(const Near& near, double begin, double end);
+    void gather_wave_breaks(const Near& near, double begin, double end);
     void gather_hip_breaks(const Near& near, double begin, double end);
     void gather_smooth(const Near& near, const Form& form, double begin, double end);
     template <typename Function>
@@ -203,6 +204,7 @@ void Tracer::gather_breaks(const Near& near, double begin, double end) {
         add_linear(breaks_, b0 - a0, b1 - a1, begin, end);
         add_linear(breaks_, b0 + a0, b1 + a1, begin, end);
     }
+    if (e.function != nullptr) gather_wave_breaks(near, begin, end);
     if (e.kind == ElementKind::line || (along_.x == 0.0 && along_.y == 0.0)) return;
     double u[2];
     const int n = truth::meet_line(e, a, along_, u);
@@ -211,6 +213,18 @@ void Tracer::gather_breaks(const Near& near, double begin, double end) {
         if (t > begin && t < end) breaks_.push_back(t);
     }
     gather_hip_breaks(near, begin, end);
+}
+
+// Parts of the ray in which a function along the path runs through a third of its finest wave at most, so that samples
+// show every turn of it.
+void Tracer::gather_wave_breaks(const Near& near, double begin, double end) {
+    const PreparedElement& e = *near.element;
+    const double finest = e.function->kind == PerturbationKind::noise ? std::ldexp(1.0, static_cast<int>(e.function->octaves) - 1) : 1.0;
+    double run = e.argument_rise;
+    if (e.kind == ElementKind::line && e.length > 0.0)
+        run *= std::min(1.0, std::abs(dot(along_, e.tangent)) * (end - begin) / e.length);
+    const double parts = std::min(std::ceil(3.0 * run * finest), 4096.0);
+    for (double i = 1.0; i < parts; i += 1.0) breaks_.push_back(begin + (end - begin) * (i / parts));
 }
 
 // On the inside of a curve the foot may lie on the arc although the point is beyond an end; |b| = a is no
@@ -266,7 +280,8 @@ Local Tracer::local_at(const Near& near, const Form& form, double t) const {
 void Tracer::gather_smooth(const Near& near, const Form& form, double begin, double end) {
     const PreparedElement& e = *near.element;
     const PreparedProfile& profile = truth_.profiles[e.profile];
-    const bool polynomial = e.kind == ElementKind::line && form.kind != FormKind::radial;
+    const bool polynomial =
+        e.kind == ElementKind::line && form.kind != FormKind::radial && (e.function == nullptr || form.kind != FormKind::plain);
     const int n = polynomial ? 2 : kSamples;
     Local locals[kSamples + 1];
     double values[kSamples + 1];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "resolve_curve.hpp"
+#include "scale_function.hpp"
 
 namespace burin::gridding {
 namespace {
@@ -36,7 +37,9 @@ void finish(Shape& shape) {
 class Outline {
   public:
     Outline(const ResolvedPattern& pattern, const ResolvedElement& element, Joints joints, double piece)
-        : element_(element.element),
+        : pattern_(pattern),
+          resolved_(element),
+          element_(element.element),
           style_(pattern.styles[element.style]),
           piece_(piece),
           extent_(extent_of(pattern.profiles[style_.profile])) {
@@ -44,17 +47,35 @@ class Outline {
         grow_ =
             1e-7 * (extent_.high - extent_.low) + 1e-12 * (std::abs(element_.p0.x) + std::abs(element_.p0.y));
         add_body(0.0, 1.0, 0);
-        add_end(element.start, element_.p0, curve::tangent(element_, 0.0), -1.0, element_.width0,
-                element_.height0, joints.start);
-        add_end(element.end, element_.p2, curve::tangent(element_, 1.0), 1.0, element_.width1,
-                element_.height1, joints.end);
+        const Scales from = scales_over(0.0, 0.0), to = scales_over(1.0, 1.0);
+        add_end(element.start, element_.p0, curve::tangent(element_, 0.0), -1.0, from.width[1], from.height[1], joints.start);
+        add_end(element.end, element_.p2, curve::tangent(element_, 1.0), 1.0, to.width[1], to.height[1], joints.end);
     }
 
     std::vector<Shape> take() { return std::move(shapes_); }
 
   private:
-    double width_at(double s) const { return element_.width0 + (element_.width1 - element_.width0) * s; }
-    double height_at(double s) const { return element_.height0 + (element_.height1 - element_.height0) * s; }
+    // Least and greatest scales between two parameters, and the widths that bound the strip at both.
+    struct Scales {
+        double width[2], height[2], from, to;
+    };
+    Scales scales_over(double s0, double s1) const {
+        const auto at = [](double a, double b, double s) { return a + (b - a) * s; };
+        const double w0 = at(element_.width0, element_.width1, s0), w1 = at(element_.width0, element_.width1, s1);
+        const double h0 = at(element_.height0, element_.height1, s0), h1 = at(element_.height0, element_.height1, s1);
+        const auto [low, high] = std::minmax(w0, w1);
+        if (resolved_.function == kNoFunction) return {{low, high}, {std::min(h0, h1), std::max(h0, h1)}, w0, w1};
+        const FactorRange f = factor_range(pattern_, resolved_, s0, s1);
+        return {{low * f.width_low, high * f.width_high},
+                {std::min(h0, h1) * f.height_low, std::max(h0, h1) * f.height_high},
+                w0 * f.width_high, w1 * f.width_high};
+    }
+    // Whether the function along the path changes so much there that one strip would not be tight.
+    bool is_wavy(const Scales& scales) const {
+        return resolved_.function != kNoFunction &&
+               (scales.width[1] - scales.width[0] > 0.15 * scales.width[1] + 1e-3 ||
+                scales.height[1] - scales.height[0] > 0.15 * scales.height[1] + 1e-3);
+    }
 
     // Halves the arc until a piece is short, turns little and runs at nearly even speed: then its strip lies
     // within the quadrilateral of its four corners, grown by the chord's sag and by what the normals' arc
@@ -66,13 +87,15 @@ class Outline {
         const double speed_a = length(curve::derivative(element_, s0)),
                      speed_b = length(curve::derivative(element_, s1));
         const bool even = std::max(speed_a, speed_b) <= 1.2 * std::min(speed_a, speed_b) || turn < 1e-6;
-        if ((length(b - a) > piece_ || turn > 0.06 || !even) && depth < 12) {
+        const Scales scales = scales_over(s0, s1);
+        const bool wavy = is_wavy(scales) && length(b - a) > 0.05 * piece_;
+        if ((length(b - a) > piece_ || turn > 0.06 || !even || wavy) && depth < 12) {
             const double middle = 0.5 * (s0 + s1);
             add_body(s0, middle, depth + 1);
             add_body(middle, s1, depth + 1);
             return;
         }
-        const double w0 = width_at(s0), w1 = width_at(s1);
+        const double w0 = scales.from, w1 = scales.to;
         const double reach = std::max(std::abs(extent_.low), std::abs(extent_.high)) * std::max(w0, w1);
         const double span = s1 - s0;
         Shape shape;
@@ -92,9 +115,8 @@ class Outline {
         shape.normal = normal_of(unit(b - a));
         shape.blur =
             grow_ + shape.sag + 0.01 * reach * (turn > 0.0 ? 1.0 : 0.0) + (turn > 0.0 ? shape.grow : 0.0);
-        shape.width_low = std::min(w0, w1), shape.width_high = std::max(w0, w1);
-        shape.height_low = std::min(height_at(s0), height_at(s1)),
-        shape.height_high = std::max(height_at(s0), height_at(s1));
+        shape.width_low = scales.width[0], shape.width_high = scales.width[1];
+        shape.height_low = scales.height[0], shape.height_high = scales.height[1];
         shape.path_line = style_.step;
         shape.chord[0] = a, shape.chord[1] = b;
         finish(shape);
@@ -183,6 +205,8 @@ class Outline {
                     side.width, side.height, side.end_zone);
     }
 
+    const ResolvedPattern& pattern_;
+    const ResolvedElement& resolved_;
     const Element& element_;
     const Style& style_;
     double piece_, grow_ = 0.0;

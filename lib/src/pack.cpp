@@ -41,6 +41,19 @@ struct ProfileCode {
     std::uint32_t internal_mask = 0;
 };
 
+bool encode_scale_function(const ScaleFunction& f, FunctionCode& code) {
+    code.kind = static_cast<std::uint32_t>(f.kind);
+    if (f.kind == PerturbationKind::polynomial) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            code.coefficients[i] = static_cast<float>(f.width_polynomial[i]);
+            code.coefficients[4 + i] = static_cast<float>(f.height_polynomial[i]);
+        }
+        return true;
+    }
+    if (f.kind == PerturbationKind::noise) code.octaves = f.octaves, code.seed = f.seed, code.period = f.period;
+    return encode_snorm16(f.width, code.width) && encode_snorm16(f.height, code.height);
+}
+
 class Packer {
   public:
     Packer(const ResolvedPattern& pattern, const CellGrid& grid, const PackOptions& options)
@@ -74,6 +87,7 @@ class Packer {
     Failure encode_points(std::size_t index, ElementCode& code) const;
     Failure encode_end(std::size_t index, const ElementEnd& end, EndCode& code) const;
     Failure encode_scales(std::size_t index, ElementCode& code) const;
+    Failure encode_function(std::size_t index, ElementCode& code);
     Failure encode_style(std::size_t index, ElementCode& code);
     std::uint32_t stored_profile(const ProfileCode& profile);
     Failure encode_cells();
@@ -90,7 +104,8 @@ class Packer {
     std::vector<std::uint32_t> material_index_;  // pattern's material -> texel
     std::vector<std::uint32_t> element_texel_;   // element -> texel, kDropped where it was left out
     static constexpr std::uint32_t kDropped = 0xFFFFFFFFu;
-    std::vector<Texel> elements_, styles_, materials_;
+    std::map<std::array<Texel, 3>, std::uint32_t> function_texel_;
+    std::vector<Texel> elements_, styles_, materials_, functions_;
     std::vector<std::uint32_t> profile_words_;
     std::map<Texel, std::uint32_t> style_index_;
     std::map<std::vector<std::uint32_t>, std::uint32_t> profile_texel_;
@@ -127,6 +142,11 @@ Packer::Failure Packer::check_indices() const {
         }
     }
     for (std::size_t i = 0; i < pattern_.elements.size(); ++i) {
+        const std::uint32_t function = pattern_.elements[i].function;
+        if (function != kNoFunction && function >= pattern_.functions.size()) {
+            return invalid("element " + text(i) + " has function " + text(function) + " of " +
+                           text(pattern_.functions.size()));
+        }
         if (pattern_.elements[i].style >= pattern_.styles.size()) {
             return invalid("element " + text(i) + " has style " + text(pattern_.elements[i].style) + " of " +
                            text(pattern_.styles.size()));
@@ -286,10 +306,12 @@ Packer::Failure Packer::encode_element(std::size_t index) {
     if (Failure error = encode_end(index, e.end, code.end)) return error;
     if (Failure error = encode_scales(index, code)) return error;
     if (Failure error = encode_style(index, code)) return error;
-    const std::array<Texel, 2> texels = pack_element(code);
+    if (Failure error = encode_function(index, code)) return error;
+    const std::array<Texel, 3> texels = pack_element(code);
     element_texel_.push_back(static_cast<std::uint32_t>(elements_.size()));
     elements_.push_back(texels[0]);
     if (code.has_texel_b) elements_.push_back(texels[1]);
+    if (code.has_texel_c) elements_.push_back(texels[2]);
     return {};
 }
 
@@ -337,6 +359,28 @@ Packer::Failure Packer::encode_scales(std::size_t index, ElementCode& code) cons
         code.width0 != 16384 || code.width1 != 16384 || code.height0 != 16384 || code.height1 != 16384;
     code.has_texel_b = code.quadratic || scaled;
     return {};
+}
+
+// Equal functions are stored once, and only those that an element refers to.
+Packer::Failure Packer::encode_function(std::size_t index, ElementCode& code) {
+    const ResolvedElement& e = pattern_.elements[index];
+    if (e.function == kNoFunction) return {};
+    FunctionCode function;
+    const bool ok = encode_argument(e.element.argument0, code.argument0) &&
+                    encode_argument(e.element.argument1, code.argument1) &&
+                    encode_scale_function(pattern_.functions[e.function], function);
+    if (!ok) {
+        return invalid("element " + text(index) + " at " + place_text(e.element.p0) + " has function " + text(e.function) +
+                       " with arguments " + std::to_string(e.element.argument0) + " to " +
+                       std::to_string(e.element.argument1) + "; amplitudes in [-1, 1] and arguments in [0, 65536) are needed");
+    }
+    code.has_texel_c = true;
+    const std::array<Texel, 3> texels = pack_function(function);
+    const auto [entry, inserted] = function_texel_.try_emplace(texels, static_cast<std::uint32_t>(functions_.size()));
+    if (inserted) functions_.insert(functions_.end(), texels.begin(), texels.begin() + function_texel_count(texels[0]));
+    code.function = entry->second;
+    if (functions_.size() <= BURIN_MAX_FUNCTION_TEXELS) return {};
+    return limit("functions along paths take more than " + std::to_string(BURIN_MAX_FUNCTION_TEXELS) + " texels");
 }
 
 Packer::Failure Packer::encode_style(std::size_t index, ElementCode& code) {
@@ -456,7 +500,8 @@ Packer::Failure Packer::assemble() {
         static_cast<std::uint32_t>(elements_.size()), static_cast<std::uint32_t>(styles_.size()),
         static_cast<std::uint32_t>(profile_words_.size() / BURIN_POINTS_PER_TEXEL),
         static_cast<std::uint32_t>(materials_.size()),
-        static_cast<std::uint32_t>((references_.size() + BURIN_REFS_PER_TEXEL - 1) / BURIN_REFS_PER_TEXEL)};
+        static_cast<std::uint32_t>((references_.size() + BURIN_REFS_PER_TEXEL - 1) / BURIN_REFS_PER_TEXEL),
+        static_cast<std::uint32_t>(functions_.size())};
     for (const std::vector<Texel>* section : {&elements_, &styles_}) {
         for (const Texel& texel : *section) out_.data.insert(out_.data.end(), texel.begin(), texel.end());
     }
@@ -466,6 +511,8 @@ Packer::Failure Packer::assemble() {
         const std::uint32_t high = i + 1 < references_.size() ? references_[i + 1] : 0u;
         out_.data.push_back(references_[i] | high << 16);
     }
+    out_.data.resize(std::size_t{4} * out_.sections.functions_begin(), 0u);
+    for (const Texel& texel : functions_) out_.data.insert(out_.data.end(), texel.begin(), texel.end());
     choose_sides(out_.sections.end(), out_.data_width, out_.data_height);
     if (out_.data_width > BURIN_MAX_TEXTURE_SIDE || out_.data_height > BURIN_MAX_TEXTURE_SIDE) {
         return limit("data texture needs " + text(out_.sections.end()) +

@@ -175,6 +175,7 @@ void Rasterizer::sample_entry(const Entry& entry, Vec2 centre, const TexelRun& r
 // False where the element's rules need more than its offset and its position to both ends.
 bool Rasterizer::make_strip(const PreparedElement& e, Vec2 p, const Foot& foot, bool inside, Strip& strip) const {
     constexpr double kGentle = 0.02;  // a texel's radius over the curve's: the third derivative shows nothing
+    if (e.function != nullptr) return false;
     if (!truth_.profiles[e.profile].height_field || !(std::min(e.width0, e.width0 + e.width_rise) > 0.0)) return false;
     double bend = 0.0;
     if (e.kind == ElementKind::quadratic && (e.scaled || !inside || !find_bend(e, foot, kGentle, bend))) return false;

@@ -553,6 +553,8 @@ Result<State> refine_finely(const Refinement& refinement, const Pattern& rough, 
 Result<RefineReport> refine_pattern(Pattern& pattern, const Image& map, const RefineOptions& options) {
     using namespace refinement;
     if (const std::optional<Error> fault = fault_of(pattern, map, options)) return *fault;
+    for (const Path& path : pattern.paths)
+        if (path.perturbation != kNoPerturbation) return RefineReport{};
     const double texel = pattern.size.x / map.width;
     const Vec2 side{1.0, pattern.size.y / map.height / texel};
     const Pattern start = to_texels(pattern, texel);

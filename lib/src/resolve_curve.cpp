@@ -39,6 +39,8 @@ Element part(const Element& element, double s0, double s1) {
     piece.width1 = scale(element.width0, element.width1, s1);
     piece.height0 = scale(element.height0, element.height1, s0);
     piece.height1 = scale(element.height0, element.height1, s1);
+    piece.argument0 = argument(element, s0);
+    piece.argument1 = argument(element, s1);
     return piece;
 }
 
@@ -105,6 +107,20 @@ double arc_length(const Element& element) {
         for (int k = 0; k < 5; ++k)
             sum += kWeight[k] / 16.0 * length(derivative(element, (i + 0.5 + 0.5 * kNode[k]) / 8.0));
     return sum;
+}
+
+double argument(const Element& element, double s) {
+    if (s <= 0.0) return element.argument0;
+    if (s >= 1.0) return element.argument1;
+    const double span = element.argument1 - element.argument0;
+    if (element.kind == ElementKind::line || span == 0.0) return element.argument0 + span * s;
+    const auto metres = [&](double to) {
+        constexpr double kOff = 0.7745966692414834;  // sqrt(3 / 5)
+        const auto speed = [&](double at) { return length(derivative(element, 0.5 * to * at)); };
+        return to * (5.0 * speed(1.0 - kOff) + 8.0 * speed(1.0) + 5.0 * speed(1.0 + kOff));
+    };
+    const double whole = metres(1.0);
+    return element.argument0 + span * (whole > 0.0 ? metres(s) / whole : s);
 }
 
 int chord_count(const Element& element, double tolerance) {

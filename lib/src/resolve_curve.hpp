@@ -22,6 +22,8 @@ double nearest(const Element& element, Vec2 p);
 Box control_box(const Element& element);
 // Length of the arc, within about 1e-6 of it.
 double arc_length(const Element& element);
+// Argument of the path's perturbation at s, as resolve.hpp defines it.
+double argument(const Element& element, double s);
 // Number of equal parameter steps whose chords stay within `tolerance` of the arc.
 int chord_count(const Element& element, double tolerance);
 // Angle by which the tangent turns, radians [0, pi].

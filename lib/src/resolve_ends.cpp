@@ -47,6 +47,7 @@ void lengthen_end_elements(Work& work) {
         while (elements.size() > 1 && curve::arc_length(elements.front()) < 2.0 * work.snap) {
             elements[1].p0 = elements[0].p0;
             elements[1].width0 = elements[0].width0, elements[1].height0 = elements[0].height0;
+            elements[1].argument0 = elements[0].argument0;
             elements.erase(elements.begin());
             ++work.stats.dropped_elements;
         }
@@ -54,6 +55,7 @@ void lengthen_end_elements(Work& work) {
             Element& before = elements[elements.size() - 2];
             before.p2 = elements.back().p2;
             before.width1 = elements.back().width1, before.height1 = elements.back().height1;
+            before.argument1 = elements.back().argument1;
             elements.pop_back();
             ++work.stats.dropped_elements;
         }
@@ -271,6 +273,7 @@ Element taper_element(const WorkPath& path, int which) {
     taper.width1 = which == 0 ? width : 0.0;
     taper.height0 = which == 0 ? 0.0 : height;
     taper.height1 = which == 0 ? height : 0.0;
+    taper.argument0 = taper.argument1 = which == 0 ? e.argument0 : e.argument1;
     return taper;
 }
 

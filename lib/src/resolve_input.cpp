@@ -65,20 +65,10 @@ Status check_element(const Element& e, Vec2 size, std::size_t path, std::size_t 
     return Done{};
 }
 
-// Heights the path can reach on its own ground must lie within the depth.
-Status check_heights(const Work& work, const Path& path, std::size_t index) {
-    const Pattern& pattern = work.pattern;
-    const double slack = pattern.depth / 256.0;
+double greatest_height_scale(const Path& path) {
     double scale = 0.0;
     for (const Element& e : path.elements) scale = std::max({scale, e.height0, e.height1});
-    for (const ProfilePoint& p : work.profiles[path.profile].points) {
-        const double h = path.level + scale * p.h;
-        if (h > highest(pattern) + slack || h < lowest(pattern) - slack)
-            return input_error(path_text(index, path.elements.front().p0) + " reaches height " +
-                               std::to_string(h) + ", outside [" + std::to_string(lowest(pattern)) + ", " +
-                               std::to_string(highest(pattern)) + "]");
-    }
-    return Done{};
+    return scale;
 }
 
 Status check_path(const Work& work, const std::vector<Status>& profile_status, std::size_t index) {
@@ -93,6 +83,9 @@ Status check_path(const Work& work, const std::vector<Status>& profile_status, s
         return input_error(name + " uses material " + std::to_string(path.material) + " of " +
                            std::to_string(pattern.materials.size()));
     if (!profile_status[path.profile].ok()) return profile_status[path.profile].error();
+    if (path.perturbation != kNoPerturbation && path.perturbation >= pattern.perturbations.size())
+        return input_error(name + " uses perturbation " + std::to_string(path.perturbation) + " of " +
+                           std::to_string(pattern.perturbations.size()));
     if (!std::isfinite(path.level)) return input_error(name + " has a level that is not finite");
     for (std::size_t i = 0; i < path.elements.size(); ++i) {
         if (const Status status = check_element(path.elements[i], pattern.size, index, i); !status.ok())
@@ -111,7 +104,7 @@ Status check_path(const Work& work, const std::vector<Status>& profile_status, s
                 return input_error(element_text(index, i, path.elements[i].p0) +
                                    " changes the height scale of a step path");
     }
-    return work.options.lenient ? Status(Done{}) : check_heights(work, path, index);
+    return work.options.lenient ? Status(Done{}) : check_heights(work, index, greatest_height_scale(path));
 }
 
 // Whole tiles between two points that should coincide modulo the tile; zero when clamped.
@@ -200,6 +193,7 @@ bool equal_elements(const Element& a, const Element& b) {
 
 bool equal_paths(const WorkPath& a, const WorkPath& b) {
     return a.profile == b.profile && a.material == b.material && a.level == b.level && a.closed == b.closed &&
+           a.function == b.function &&
            std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(),
                       equal_elements);
 }
@@ -230,6 +224,20 @@ void drop_duplicates(Work& work) {
 }
 
 }  // namespace
+
+Status check_heights(const Work& work, std::size_t index, double scale) {
+    const Pattern& pattern = work.pattern;
+    const Path& path = pattern.paths[index];
+    const double slack = pattern.depth / 256.0;
+    for (const ProfilePoint& p : work.profiles[path.profile].points) {
+        const double h = path.level + scale * p.h;
+        if (h > highest(pattern) + slack || h < lowest(pattern) - slack)
+            return input_error(path_text(index, path.elements.front().p0) + " reaches height " +
+                               std::to_string(h) + ", outside [" + std::to_string(lowest(pattern)) + ", " +
+                               std::to_string(highest(pattern)) + "]");
+    }
+    return Done{};
+}
 
 std::string position_text(Vec2 p) {
     char text[80];
@@ -291,6 +299,7 @@ Status prepare(Work& work) {
         if (status.ok()) {
             WorkPath path = copy_path(work, i);
             status = weld_elements(work, path, i);
+            if (status.ok()) status = perturb_path(work, path);
             if (status.ok()) work.paths.push_back(std::move(path));
         }
         if (!status.ok() && !tolerate(work, status.error().message)) return status;

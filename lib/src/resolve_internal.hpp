@@ -2,6 +2,7 @@
 //
 // The stage works on WorkPaths, copies of the pattern's paths whose elements may move (snapping) and split:
 //   resolve_profile.cpp  facets of a profile         resolve_input.cpp   checks, cleaning
+//   resolve_perturbation.cpp  functions along paths
 //   resolve_chords.*     chords in buckets, exact crossings, nearest points
 //   resolve_ends.cpp     ends that meet, T-junctions  resolve_crossings.cpp  what crosses what
 //   resolve_split.cpp    grooves split at steps       resolve_ground.cpp  levels
@@ -41,7 +42,8 @@ struct WorkPath {
     bool closed = false, step = false;
     bool dot = false;  // open, and so short that its ends are one place: they meet nothing, and nothing ends on it
     double level = 0.0, right_level = 0.0;
-    double reach = 0.0;  // greatest |b| of the profile, metres
+    double reach = 0.0;  // greatest |b| of the profile times the greatest factor of the perturbation, metres
+    std::uint32_t function = kNoFunction;
     JoinKind join = JoinKind::mitre;
     CapKind cap[2] = {CapKind::hip, CapKind::hip};
     PathEnd end[2];
@@ -61,6 +63,7 @@ struct Work {
     std::vector<ResolvedProfile> profiles;
     std::vector<double> rise;  // per profile: last h - first h; 0 for grooves
     std::vector<WorkPath> paths;
+    std::vector<ScaleFunction> functions;
     std::vector<Junction> junctions;
     ResolveStats stats;
     bool repeats() const { return pattern.wrap == Wrap::repeat; }
@@ -76,6 +79,11 @@ Result<ResolvedProfile> classify_profile(const Profile& profile, std::size_t ind
 Status prepare(Work& work);
 // Counts a path in error; true when the options allow to go on without it.
 bool tolerate(Work& work, const std::string& message);
+
+// Heights that path `index` reaches on its own ground, at height scales up to `scale`, must lie within the depth.
+Status check_heights(const Work& work, std::size_t index, double scale);
+// Gives the elements of a path with a perturbation their arguments and the path its function and reach; checks the scales.
+Status perturb_path(Work& work, WorkPath& path);
 
 // Arcs as chords, path by path in order.
 std::vector<Chord> flatten(const Work& work, bool steps_only);

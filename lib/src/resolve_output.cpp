@@ -47,6 +47,7 @@ class Assembler {
         out_.outer_level = work.pattern.outer_level;
         out_.profiles = work.profiles;
         out_.materials = work.pattern.materials;
+        out_.functions = work.functions;
     }
 
     Result<ResolvedPattern> run() {
@@ -91,7 +92,7 @@ class Assembler {
         if (work_.repeats()) moved = curve::translated(moved, wrapped(work_, moved.p0) - moved.p0);
         if (work_.repeats() ? fits_tile(moved, reach) : fits_range(moved)) {
             if (work_.repeats()) moved.p0 = wrapped(work_, piece.element.p0);
-            ResolvedElement resolved{moved, piece.start, piece.end, style, path.source};
+            ResolvedElement resolved{moved, piece.start, piece.end, style, path.source, path.function};
             out_.elements.push_back(resolved);
             return Done{};
         }

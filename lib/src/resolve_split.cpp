@@ -235,9 +235,9 @@ void extend_onto_bent_steps(const Work& work, WorkPath& path) {
         more.p2 = which == 0 ? at : tip;
         more.p1 = lerp(more.p0, more.p2, 0.5);
         if (which == 0)
-            more.width1 = more.width0, more.height1 = more.height0;
+            more.width1 = more.width0, more.height1 = more.height0, more.argument1 = more.argument0;
         else
-            more.width0 = more.width1, more.height0 = more.height1;
+            more.width0 = more.width1, more.height0 = more.height1, more.argument0 = more.argument1;
         const std::size_t place = which == 0 ? 0 : path.elements.size();
         path.elements.insert(path.elements.begin() + static_cast<std::ptrdiff_t>(place), more);
         path.starts.insert(path.starts.begin() + static_cast<std::ptrdiff_t>(place), ElementEnd{});

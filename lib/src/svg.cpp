@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 namespace burin {
@@ -148,6 +149,26 @@ std::string clones(const Pattern& pattern, std::size_t index) {
     return all;
 }
 
+// Kind and numbers of the perturbation; format/svg.md.
+std::string perturbation_text(const Pattern& pattern, const Path& path) {
+    if (path.perturbation == kNoPerturbation) return "";
+    const Perturbation& p = pattern.perturbations[path.perturbation];
+    std::vector<double> numbers{p.width, p.height, p.wavelength, p.phase};
+    const char* kind = "sine";
+    if (p.kind == PerturbationKind::noise) {
+        kind = "noise";
+        numbers.back() = p.seed;
+        numbers.push_back(p.octaves);
+    } else if (p.kind == PerturbationKind::polynomial) {
+        kind = "polynomial";
+        numbers.assign(std::begin(p.width_polynomial), std::end(p.width_polynomial));
+        numbers.insert(numbers.end(), std::begin(p.height_polynomial), std::end(p.height_polynomial));
+    }
+    std::string text = kind;
+    for (const double number : numbers) text += ' ', text += exact(number);
+    return text;
+}
+
 std::string path_element(const Pattern& pattern, std::size_t index) {
     const Path& path = pattern.paths[index];
     return "    <path" + attribute("id", "path-" + std::to_string(index)) +
@@ -157,6 +178,7 @@ std::string path_element(const Pattern& pattern, std::size_t index) {
            unusual("start-cap", name_of(path.start_cap), "hip") + unusual("end-cap", name_of(path.end_cap), "hip") +
            unusual("widths", scales(path, &Element::width0, &Element::width1), "") +
            unusual("heights", scales(path, &Element::height0, &Element::height1), "") +
+           unusual("perturbation", perturbation_text(pattern, path), "") +
            stroke(pattern, path) + attribute("d", path_data(path.elements)) + "/>\n";
 }
 

@@ -47,6 +47,7 @@ class Unpacker {
     void read_cell(std::uint32_t index);
     std::uint32_t style_of(const ElementCode& code);
     std::uint32_t profile_of(const StyleCode& style, double height_scale);
+    std::uint32_t function_of(const ElementCode& code);
     bool continues(const ElementCode& before, const ElementCode& code) const;
 
     const PackedTextures& textures_;
@@ -55,6 +56,7 @@ class Unpacker {
     // A step's last point is set to the stored right level, so its height scale is part of what makes it.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> style_index_;
     std::map<std::tuple<Texel, std::uint32_t>, std::uint32_t> profile_index_;
+    std::map<std::uint32_t, std::uint32_t> function_index_;  // texel -> function
     std::vector<std::uint32_t> element_at_;  // texel -> element
 };
 
@@ -112,12 +114,32 @@ std::uint32_t Unpacker::style_of(const ElementCode& code) {
     return entry->second;
 }
 
+std::uint32_t Unpacker::function_of(const ElementCode& code) {
+    if (!code.has_texel_c) return kNoFunction;
+    std::vector<ScaleFunction>& functions = out_.pattern.functions;
+    const auto [entry, inserted] = function_index_.try_emplace(code.function, static_cast<std::uint32_t>(functions.size()));
+    if (!inserted) return entry->second;
+    const FunctionCode stored = function_at(textures_, code.function);
+    ScaleFunction f;
+    f.kind = static_cast<PerturbationKind>(stored.kind);
+    f.width = decode_snorm16(stored.width);
+    f.height = decode_snorm16(stored.height);
+    if (f.kind == PerturbationKind::noise) f.seed = stored.seed, f.octaves = stored.octaves, f.period = stored.period;
+    for (std::size_t i = 0; i < 4 && f.kind == PerturbationKind::polynomial; ++i) {
+        f.width_polynomial[i] = static_cast<double>(stored.coefficients[i]);
+        f.height_polynomial[i] = static_cast<double>(stored.coefficients[4 + i]);
+    }
+    functions.push_back(f);
+    return entry->second;
+}
+
 bool Unpacker::continues(const ElementCode& before, const ElementCode& code) const {
     const auto tile = static_cast<std::uint32_t>(BURIN_COORDINATE_STEPS);
     const auto meet = [this, tile](std::uint32_t a, std::uint32_t b) {
         return detail_.repeat ? (a - b) % tile == 0 : a == b;
     };
-    return meet(before.p2.u, code.p0.u) && meet(before.p2.v, code.p0.v) && before.style == code.style;
+    return meet(before.p2.u, code.p0.u) && meet(before.p2.v, code.p0.v) && before.style == code.style &&
+           before.has_texel_c == code.has_texel_c && before.function == code.function;
 }
 
 void Unpacker::read_elements() {
@@ -126,9 +148,7 @@ void Unpacker::read_elements() {
     ElementCode before;
     std::uint32_t path = 0;
     for (std::uint32_t at = 0; at < count;) {
-        const Texel a = data_texel(textures_, at);
-        const bool two = element_has_texel_b(a);
-        const ElementCode code = unpack_element(a, two ? data_texel(textures_, at + 1) : Texel{});
+        const ElementCode code = burin::element_at(textures_, at);
         ResolvedElement e;
         e.element = {code.quadratic ? ElementKind::quadratic : ElementKind::line,
                      point(code.p0),
@@ -137,7 +157,9 @@ void Unpacker::read_elements() {
                      decode_scale(code.width0),
                      decode_scale(code.width1),
                      decode_scale(code.height0),
-                     decode_scale(code.height1)};
+                     decode_scale(code.height1),
+                     decode_argument(code.argument0),
+                     decode_argument(code.argument1)};
         const auto end = [](const EndCode& c) {
             return ElementEnd{static_cast<Priority>(c.priority), static_cast<std::uint8_t>(c.shape),
                               decode_clip_angle(c.clip_angle)};
@@ -145,12 +167,13 @@ void Unpacker::read_elements() {
         e.start = end(code.start);
         e.end = end(code.end);
         e.style = style_of(code);
+        e.function = function_of(code);
         if (at > 0 && !continues(before, code)) ++path;
         e.path = path;
         element_at_[at] = static_cast<std::uint32_t>(out_.pattern.elements.size());
         out_.pattern.elements.push_back(e);
         before = code;
-        at += two ? 2 : 1;
+        at += element_texel_count(data_texel(textures_, at));
     }
 }
 

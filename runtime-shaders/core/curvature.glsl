@@ -31,9 +31,9 @@
 #define BURIN_MOST_TURN 0.07f
 
 // The most that the surface may turn or stretch over one depth.
-#define BURIN_MOST_BEND 10.0f
+#define BURIN_MOST_CURVE 10.0f
 
-struct BurinBend {
+struct BurinRound {
     bool bent;  // false: flat and evenly stretched; the others are not asked
     vec3 entry;  // local point of the mesh where the eye's ray passes it
     vec3 xx;    // second derivatives of the surface along the local frame, per metre
@@ -73,8 +73,8 @@ struct BurinSpot {
 
 // Requires: second derivatives along the local frame; the metric (x . x, x . y, y . y) of its first two columns; the
 // spread (of x x, x y, y y) over the triangle.
-BurinBend burin_bend(vec3 xx, vec3 xy, vec3 yy, vec3 metric, vec3 spread) {
-    BurinBend bend;
+BurinRound burin_bend_from(vec3 xx, vec3 xy, vec3 yy, vec3 metric, vec3 spread) {
+    BurinRound bend;
     bend.xx = xx;
     bend.xy = xy;
     bend.yy = yy;
@@ -104,7 +104,7 @@ BurinBend burin_bend(vec3 xx, vec3 xy, vec3 yy, vec3 metric, vec3 spread) {
     // What the surface turns and stretches over one depth; less than rounding makes of it is nothing, and far too much is
     // a broken triangle.
     float most = max(max(length(bend.xx), length(bend.xy)), length(bend.yy));
-    bend.bent = most * burin_map.depth > 1.0e-6f && most * burin_map.depth < BURIN_MOST_BEND;
+    bend.bent = most * burin_map.depth > 1.0e-6f && most * burin_map.depth < BURIN_MOST_CURVE;
     return bend;
 }
 
@@ -114,21 +114,21 @@ vec2 burin_slope_of(vec3 direction) {
 }
 
 // From derivatives and spread per uv; `frame` has the local frame as its columns, `to_local` is its inverse.
-BurinBend burin_bend_at(mat3 frame, mat3 to_local, vec3 duu, vec3 duv, vec3 dvv, vec3 spread) {
+BurinRound burin_bend_at(mat3 frame, mat3 to_local, vec3 duu, vec3 duv, vec3 dvv, vec3 spread) {
     vec2 size = burin_map.size;
     vec3 square = vec3(size.x * size.x, size.x * size.y, size.y * size.y);
     vec3 metric = vec3(dot(frame[0], frame[0]), dot(frame[0], frame[1]), dot(frame[1], frame[1]));
-    return burin_bend(to_local * duu * (1.0f / square.x), to_local * duv * (1.0f / square.y),
+    return burin_bend_from(to_local * duu * (1.0f / square.x), to_local * duv * (1.0f / square.y),
                       to_local * dvv * (1.0f / square.z), metric, spread * square);
 }
 
 // Second derivative of the surface in a direction.
-vec3 burin_second(BurinBend bend, vec2 d) {
+vec3 burin_second(BurinRound bend, vec2 d) {
     return bend.xx * (d.x * d.x) + bend.xy * (2.0f * d.x * d.y) + bend.yy * (d.y * d.y);
 }
 
 // Of a point of the surface, known by its place over the tangent plane at the origin.
-BurinSpot burin_spot(BurinBend bend, vec2 over) {
+BurinSpot burin_spot(BurinRound bend, vec2 over) {
     BurinSpot spot;
     spot.lean = bend.turn_x * over.x + bend.turn_y * over.y;
     spot.slope = vec2(bend.xx.z * over.x + bend.xy.z * over.y, bend.xy.z * over.x + bend.yy.z * over.y);
@@ -138,7 +138,7 @@ BurinSpot burin_spot(BurinBend bend, vec2 over) {
 
 // Place (d, drop) of a local point: Newton over the tangent plane, where nothing depends on how uv is laid out, from a
 // place nearby; then the stretch.
-vec3 burin_place(BurinBend bend, vec3 p, vec2 near) {
+vec3 burin_place(BurinRound bend, vec3 p, vec2 near) {
     vec2 over = near;
     float most = length(vec2(p)) * (1.0f / (1.0f - BURIN_MOST_SHRINK));
     BurinSpot spot = burin_spot(bend, over);
@@ -160,22 +160,26 @@ vec3 burin_place(BurinBend bend, vec3 p, vec2 near) {
     return vec3(d.x, d.y, (spot.height - p.z) * longer);
 }
 
-// A normal of pattern space at a place, as a normal of the local frame; not of unit length.
-vec3 burin_bend_normal(BurinBend bend, vec2 d, float drop, vec3 normal) {
-    if (!bend.bent) return normal;
+// Columns: what a metre along x, along y and upwards at a place of pattern space is in the local frame.
+mat3 burin_bend_frame(BurinRound bend, vec2 d, float drop) {
     BurinSpot spot = burin_spot(bend, d + 0.5f * vec2(burin_second(bend, d)));
     vec2 x = vec2(1.0f, 0.0f) + vec2(bend.xx) * d.x + vec2(bend.xy) * d.y;
     vec2 y = vec2(0.0f, 1.0f) + vec2(bend.xy) * d.x + vec2(bend.yy) * d.y;
     vec2 lower_x = x - drop * (bend.turn_x * x.x + bend.turn_y * x.y);
     vec2 lower_y = y - drop * (bend.turn_x * y.x + bend.turn_y * y.y);
-    vec3 along_x = vec3(lower_x.x, lower_x.y, dot(spot.slope, x));
-    vec3 along_y = vec3(lower_y.x, lower_y.y, dot(spot.slope, y));
-    vec3 up = vec3(spot.lean.x, spot.lean.y, 1.0f);
-    return cross(along_y, up) * normal.x + cross(up, along_x) * normal.y + cross(along_x, along_y) * normal.z;
+    return mat3(vec3(lower_x.x, lower_x.y, dot(spot.slope, x)), vec3(lower_y.x, lower_y.y, dot(spot.slope, y)),
+                vec3(spot.lean.x, spot.lean.y, 1.0f));
+}
+
+// A normal of pattern space at a place, as a normal of the local frame; not of unit length.
+vec3 burin_bend_normal(BurinRound bend, vec2 d, float drop, vec3 normal) {
+    if (!bend.bent) return normal;
+    mat3 frame = burin_bend_frame(bend, d, drop);
+    return cross(frame[1], frame[2]) * normal.x + cross(frame[2], frame[0]) * normal.y + cross(frame[0], frame[1]) * normal.z;
 }
 
 // Chords that a stretch of a line needs. `fall`: drop per metre of it.
-int burin_chord_count(BurinBend bend, vec2 along, float fall, float stretch) {
+int burin_chord_count(BurinRound bend, vec2 along, float fall, float stretch) {
     vec3 second = burin_second(bend, along);
     vec2 turn = bend.turn_x * along.x + bend.turn_y * along.y;
     float curve = abs(second.z) + length(vec2(second)) + 2.0f * abs(fall) * length(turn);
@@ -183,8 +187,9 @@ int burin_chord_count(BurinBend bend, vec2 along, float fall, float stretch) {
     return int(clamp(ceil(count), 1.0f, float(BURIN_MAX_CHORDS) * 0.5f));
 }
 
-// The eye's ray. `direction` of unit length in space, along the local frame; it falls.
-BurinSight burin_eye_sight(BurinBend bend, BurinRay ray, vec3 direction) {
+// An eye's ray through the mesh at ray.origin, at `start` or within the pixel beside it. `direction` of unit length in
+// space, along the local frame; it falls.
+BurinSight burin_eye_sight(BurinRound bend, vec2 start, BurinRay ray, vec3 direction) {
     BurinSight sight;
     sight.ray = ray;
     sight.until = burin_map.depth;
@@ -195,7 +200,7 @@ BurinSight burin_eye_sight(BurinBend bend, BurinRay ray, vec3 direction) {
     sight.fall = 1.0f;
     sight.outward = false;
     sight.shift = vec3(0.0f, 0.0f, 0.0f);
-    sight.near = vec2(0.0f, 0.0f);
+    sight.near = ray.origin - start;
     sight.chords = 1;
     if (!bend.bent) return sight;
     // drop(s) = fall s + second s^2 / 2 from the round surface on: it reaches the lowest point, or comes up before.
@@ -203,7 +208,7 @@ BurinSight burin_eye_sight(BurinBend bend, BurinRay ray, vec3 direction) {
     float second = burin_second(bend, vec2(direction)).z;
     float below = -bend.entry.z;
     float turned = fall * fall - 2.0f * second * below;
-    sight.from = bend.entry;
+    sight.from = bend.entry + vec3(sight.near.x, sight.near.y, 0.0f);
     // One that would pass the round surface by begins on the mesh.
     if (turned > 1.0e-6f) {
         turned = sqrt(turned);
@@ -221,15 +226,21 @@ BurinSight burin_eye_sight(BurinBend bend, BurinRay ray, vec3 direction) {
     return sight;
 }
 
-// From what the eye met towards the light, whose local direction has unit length in space. `ray` as on a flat surface,
-// where it ends at the drop `until`.
-BurinSight burin_light_sight(BurinBend bend, BurinRay ray, float until, BurinFound found, BurinSight eye, vec2 start,
-                             vec3 light) {
-    BurinSight sight = eye;
+// From what the eye's ray through `origin` met towards the light; both local directions have unit length in space. `ray` as
+// on a flat surface, where it ends at the drop `until`.
+BurinSight burin_light_sight(BurinRound bend, BurinRay ray, float until, BurinFound found, vec2 start, vec2 origin,
+                             vec3 direction, vec3 light) {
+    BurinSight sight;
     sight.ray = ray;
     sight.until = until;
+    sight.first = 0.0f;
+    sight.chord = 0.0f;
+    sight.fall = 1.0f;
+    sight.shift = vec3(0.0f, 0.0f, 0.0f);
+    sight.near = found.place - start;
+    sight.chords = 1;
     if (!bend.bent) return sight;
-    sight.from = eye.from + eye.along * found.way;
+    sight.from = bend.entry + vec3(origin.x - start.x, origin.y - start.y, 0.0f) + direction * found.way;
     sight.along = light;
     sight.outward = true;
     vec2 d = found.place - start;
@@ -268,7 +279,7 @@ BurinChord burin_chord(vec2 start, vec3 upper, vec3 lower, bool outward) {
 
 // First solid point along a sight, for `outward` any. met is false where it leaves the object, or reaches its end, before.
 // `start`: pattern metres where the eye's ray passes the object surface.
-BurinFound burin_trace_sight(BurinBend bend, vec2 start, BurinSight sight) {
+BurinFound burin_trace_sight(BurinRound bend, vec2 start, BurinSight sight) {
     BurinFound found;
     BurinChord chord;
     chord.ray = sight.ray;
@@ -316,4 +327,26 @@ BurinFound burin_trace_sight(BurinBend bend, vec2 start, BurinSight sight) {
         found.way = found.hit.t / max(-sight.along.z, BURIN_LEAST_FALL * length(sight.along) + 1.0e-12f);
     }
     return found;
+}
+
+// A straight ray of pattern space that stands in for the eye's where it meets the relief, about half its depth down: for
+// what looks at a pixel as a whole. `drop` is where the two meet. False where the eye's ray does not come so deep.
+bool burin_straighten(BurinRound bend, vec3 direction, BURIN_INOUT(BurinRay) ray, BURIN_OUT(float) drop) {
+    drop = 0.0f;
+    if (!bend.bent) return true;
+    float fall = max(-direction.z, 1.0e-6f);
+    float second = burin_second(bend, vec2(direction)).z;
+    float deep = 0.5f * burin_map.depth;
+    float square = fall * fall + 2.0f * second * (deep + bend.entry.z);
+    if (square < 0.25f * fall * fall) return false;
+    float way = 2.0f * (deep + bend.entry.z) / (fall + sqrt(square));
+    vec2 start = ray.origin;
+    vec3 upper = burin_place(bend, bend.entry, vec2(0.0f, 0.0f));
+    vec3 lower = burin_place(bend, bend.entry + direction * way, vec2(upper));
+    if (lower.z - upper.z < 0.25f * deep) return false;
+    ray.slope = (vec2(lower) - vec2(upper)) * (1.0f / (lower.z - upper.z));
+    if (length(ray.slope) > 1.0f / BURIN_LEAST_FALL) return false;
+    ray.origin = start + vec2(upper) - ray.slope * upper.z;
+    drop = lower.z;
+    return true;
 }

@@ -143,11 +143,32 @@ bool burin_has_beyond(BurinEnd end, float side, bool curved, bool flank) {
     return burin_own_sector(end, side) && end.shape != BURIN_CORNER_MITRE;
 }
 
-bool burin_has_part(BurinEnd start, BurinEnd end, int part, float side, bool curved) {
-    if (part == BURIN_PART_MAIN) return true;
-    bool flank = part == BURIN_PART_START_FLANK || part == BURIN_PART_END_FLANK;
-    if (part <= BURIN_PART_START_FLANK) return burin_has_beyond(start, side, curved, flank);
-    return burin_has_beyond(end, side, curved, flank);
+// Bit 2 * part + (0: left, 1: right) of every part that the element has on the sides asked for.
+uint burin_parts_of(BurinEnd start, BurinEnd end, bool left, bool right, bool curved) {
+    uint parts = 0u;
+    for (int k = 0; k < 2; ++k) {
+        if (!(k == 0 ? left : right)) continue;
+        float side = k == 0 ? -1.0f : 1.0f;
+        uint found = 1u << uint(2 * BURIN_PART_MAIN);
+        if (burin_has_beyond(start, side, curved, false)) found = found | (1u << uint(2 * BURIN_PART_START));
+        if (burin_has_beyond(start, side, curved, true)) found = found | (1u << uint(2 * BURIN_PART_START_FLANK));
+        if (burin_has_beyond(end, side, curved, false)) found = found | (1u << uint(2 * BURIN_PART_END));
+        if (burin_has_beyond(end, side, curved, true)) found = found | (1u << uint(2 * BURIN_PART_END_FLANK));
+        parts = parts | (found << uint(k));
+    }
+    return parts;
+}
+
+// Requires: some bit is set, below 2 * BURIN_PARTS.
+int burin_lowest_bit(uint bits) {
+    uint low = bits & (~bits + 1u);
+    int at = 0;
+    if ((low & 0xffu) == 0u) at = 8;
+    uint rest = low >> uint(at);
+    if ((rest & 15u) == 0u) at += 4;
+    rest = low >> uint(at);
+    if ((rest & 3u) == 0u) at += 2;
+    return (low >> uint(at)) == 1u ? at : at + 1;
 }
 
 // The stretch of `whole` where part `part` acts on `side` (-1 or +1).
@@ -177,6 +198,11 @@ BurinPiece burin_formula(BurinElement e, BurinPiece piece, int part) {
     bool at_end = part == BURIN_PART_END || part == BURIN_PART_END_FLANK;
     piece.width = max(at_end ? e.scales.y : e.scales.x, 1.0e-3f);
     piece.height = max(at_end ? e.scales.w : e.scales.z, 1.0e-3f);
+    if (e.waved) {
+        vec2 scale = burin_scales(e, at_end ? 1.0f : 0.0f).scale;
+        piece.width = max(scale.x, 1.0e-3f);
+        piece.height = max(scale.y, 1.0e-3f);
+    }
     if (part == BURIN_PART_MAIN) {
         piece.kind = e.curved ? BURIN_PIECE_CURVE : BURIN_PIECE_LINEAR;
         piece.anchor = e.p0;
@@ -205,6 +231,7 @@ BurinSection burin_section(BurinElement e, BurinStyle style, BurinPiece piece, B
     s.gradient = piece.gradient;
     float b = dot(piece.gradient, p - piece.anchor);
     float along = 0.0f;
+    float speed = e.extent;  // metres of the plane along the path per parameter
     if (piece.kind == BURIN_PIECE_RADIAL) {
         b = piece.side * length(p - piece.anchor);
         s.gradient = burin_direction(p - piece.anchor, e.t0) * piece.side;
@@ -214,16 +241,19 @@ BurinSection burin_section(BurinElement e, BurinStyle style, BurinPiece piece, B
         s.gradient = foot.normal;
         s.tangent = vec2(foot.normal.y, -foot.normal.x);
         along = foot.parameter;
+        vec2 edge = mix(e.p1 - e.p0, e.p2 - e.p1, along) * 2.0f;
+        vec2 bend = (e.p0 - 2.0f * e.p1 + e.p2) * 2.0f;
+        // Beside the path the parameter runs slower or faster, as on arcs around its centre of curvature.
+        speed = length(edge) - foot.offset * dot(bend, foot.normal) / max(length(edge), 1.0e-12f);
     } else if (!piece.fixed_scale) {
         along = dot(p - e.p0, e.t0) / max(e.extent, 1.0e-9f);
     }
     if (!piece.fixed_scale) {
         float clamped = clamp(along, 0.0f, 1.0f);
-        s.width = max(mix(e.scales.x, e.scales.y, clamped), 1.0e-3f);
-        s.height = max(mix(e.scales.z, e.scales.w, clamped), 1.0e-3f);
-        if (along == clamped) {
-            s.scale_rates = vec2(e.scales.y - e.scales.x, e.scales.w - e.scales.z) * (1.0f / max(e.extent, 1.0e-9f));
-        }
+        BurinScales scales = burin_scales(e, clamped);
+        s.width = max(scales.scale.x, 1.0e-3f);
+        s.height = max(scales.scale.y, 1.0e-3f);
+        if (along == clamped) s.scale_rates = scales.rate * (1.0f / max(speed, 1.0e-9f));
     }
     s.q = vec2(b / (s.width * style.reach), (style.level - t) / (s.height * burin_map.depth));
     return s;

@@ -65,6 +65,10 @@ float burin_scale(uint code) {
     return float(code & 0xffffu) * (1.0f / float(BURIN_SCALE_STEPS));
 }
 
+vec4 burin_floats(uvec4 bits) {
+    return vec4(uintBitsToFloat(bits.x), uintBitsToFloat(bits.y), uintBitsToFloat(bits.z), uintBitsToFloat(bits.w));
+}
+
 // The element as seen from `origin`, in the tile image whose chord is nearest to the cell's centre.
 BurinElement burin_element(uint reference, vec2 origin, vec2 centre) {
     uvec4 a = fetch_data(int(reference));
@@ -75,12 +79,37 @@ BurinElement burin_element(uint reference, vec2 origin, vec2 centre) {
     vec2 p1 = (p0 + p2) * 0.5f;
     e.scales = vec4(1.0f, 1.0f, 1.0f, 1.0f);
     e.scaled = false;
+    e.waved = false;
+    e.function = uvec4(0u, 0u, 0u, 0u);
+    e.width_terms = vec4(1.0f, 0.0f, 0.0f, 0.0f);
+    e.height_terms = e.width_terms;
+    e.turns = 0;
+    e.argument = vec2(0.0f, 0.0f);
+    int next = int(reference) + 1;
     if ((a.z & 0x20000000u) != 0u) {
-        uvec4 b = fetch_data(int(reference) + 1);
+        uvec4 b = fetch_data(next);
+        ++next;
         if (e.curved) p1 = burin_vertex_uv(b.x, b.y);
         e.scales = vec4(burin_scale(b.z), burin_scale(b.z >> 16), burin_scale(b.w), burin_scale(b.w >> 16));
         e.scaled = b.z >> 16 != (b.z & 0xffffu) || b.w >> 16 != (b.w & 0xffffu);
     }
+#if BURIN_FUNCTION_KINDS != 0
+    if ((a.z & 0x40000000u) != 0u) {
+        uvec4 c = fetch_data(next);
+        int function = burin_map.first_function + int(c.z & 0xffffu);
+        e.waved = true;
+        e.scaled = true;
+        e.function = fetch_data(function);
+        e.turns = int(c.x >> BURIN_ARGUMENT_BITS);
+        e.argument = vec2(float(c.x & 0xffffu), float(int(c.y - c.x))) * (1.0f / float(BURIN_ARGUMENT_STEPS));
+#if (BURIN_FUNCTION_KINDS & 2) != 0
+        if ((e.function.x & 3u) == BURIN_FUNCTION_POLYNOMIAL) {
+            e.width_terms = burin_floats(fetch_data(function + 1));
+            e.height_terms = burin_floats(fetch_data(function + 2));
+        }
+#endif
+    }
+#endif
     vec2 shift = vec2(0.0f, 0.0f);
     if (burin_map.repeats != 0) {
         shift = floor(centre - (p0 + p2) * 0.5f + vec2(0.5f, 0.5f));
@@ -113,12 +142,6 @@ BurinStyle burin_style(uint index) {
     style.reach = uintBitsToFloat(texel.z);
     style.internal = texel.w;
     return style;
-}
-
-// A clip line that ends a feature on the path line of another one is turned by the rounding of its angle. The feature
-// runs on by what that can amount to at the rim, or a sheet of solid would stand between the two.
-float burin_clip_slack(BurinElement e, BurinStyle style) {
-    return BURIN_CLIP_ROUNDING * style.reach * max(e.scales.x, e.scales.y);
 }
 
 vec2 burin_point(uvec4 texel, int i) {

@@ -56,7 +56,11 @@ int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, Buri
     if (!piece.fixed_scale) bend = bend + 1.0f / max(e.extent, 1.0e-6f);
     // Rise of the arc over its chord, in reaches.
     float rise = way * way * bend / (8.0f * style.reach);
-    return clamp(int(ceil(sqrt(rise * 12.0f))), 1, BURIN_MAX_SEGMENTS);
+    int count = clamp(int(ceil(sqrt(rise * 12.0f))), 1, BURIN_MAX_SEGMENTS);
+    if (piece.fixed_scale || !e.waved) return count;
+    float run = e.curved ? way : abs(dot(ray.slope, e.t0)) * (piece.hi - piece.lo);
+    float turns = e.argument.y * min(run / max(e.extent, 1.0e-6f), 1.0f);
+    return min(count + int(ceil(turns * sqrt(burin_waviness(e) * 8.0f))), BURIN_MAX_WAVE_SEGMENTS);
 }
 
 void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinMark mark,
@@ -76,7 +80,7 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
     vec2 range = vec2(piece.lo, piece.lo);
     vec2 qa = vec2(0.0f, 0.0f);
     vec2 qb = vec2(0.0f, 0.0f);
-    for (int i = 0; i <= BURIN_MAX_SEGMENTS + 1; ++i) {
+    for (int i = 0; i <= BURIN_MAX_WAVE_SEGMENTS + 1; ++i) {
         if (i > count) break;
         float to = i == count ? piece.hi : (i == above ? part : mix(part, piece.hi, float(i - above) / float(count - above)));
         if (i < above) to = mix(piece.lo, part, float(i) / float(above));
@@ -129,12 +133,13 @@ void burin_visit(uint reference, BurinRay ray, vec2 centre, vec2 stretch, float 
     mark.element = reference;
     mark.facet = BURIN_FACET_WALL;
     mark.wall = vec2(0.0f, 0.0f);
-    for (int i = 0; i < 2 * BURIN_PARTS; ++i) {
-        if (plain && i > 0) break;
+    uint parts = plain ? 1u : burin_parts_of(start, end, left, right, e.curved);
+    for (int n = 0; n < 2 * BURIN_PARTS; ++n) {
+        if (parts == 0u) break;
+        int i = burin_lowest_bit(parts);
+        parts = parts & (parts - 1u);
         mark.part = i / 2;
         mark.side = plain ? 0.0f : (i % 2 == 0 ? -1.0f : 1.0f);
-        if (!plain && !(i % 2 == 0 ? left : right)) continue;
-        if (!plain && !burin_has_part(start, end, mark.part, mark.side, e.curved)) continue;
         BurinPiece piece = whole;
         if (!plain) piece = burin_part(e, start, end, ray, whole, mark.part, mark.side);
         if (piece.hi <= piece.lo) continue;

@@ -7,16 +7,24 @@
 // THE SECTION. Where an element acts, the ray is a curve q(t) = (b' / reach, height / depth) in the plane of the
 // profile, both divided by the scales at the foot. Profile points live in the same plane, in [-1, 1].
 
+// Which functions along paths the program can follow, as a sum: 1 sine, 2 polynomial, 4 noise. Drivers that run both sides
+// of a branch pay for each of them on every ray, so that a host should define what its textures hold (README.md).
+#ifndef BURIN_FUNCTION_KINDS
+#define BURIN_FUNCTION_KINDS 7
+#endif
+
 struct BurinMap {
     vec2 size;          // metres per uv unit
     float depth;        // metres
     float outer_level;  // drop of the ground outside a map that does not repeat
+    vec2 drop_range;    // drops of the highest and of the lowest surface
     int repeats;        // 1: the pattern tiles
     ivec2 cells;        // columns and rows of the grid
     int first_style;    // texels of the data texture where its sections start; elements start at 0
     int first_profile;
     int first_material;
     int first_list;
+    int first_function;
 };
 
 struct BurinRay {
@@ -44,6 +52,12 @@ struct BurinElement {
     float extent;  // length of the chord
     bool curved;
     bool scaled;        // the scales change along the element
+    bool waved;         // a function multiplies them
+    uvec4 function;     // its head texel
+    vec4 width_terms;   // and, of a polynomial, its coefficients
+    vec4 height_terms;
+    int turns;          // whole part of its argument at the start
+    vec2 argument;      // the rest of it, and how much it grows to the end
     uint kind0;         // end-kinds, layout.h
     uint kind2;
     float clip0;  // clip angles, radians
@@ -111,6 +125,11 @@ struct BurinHit {
 #define BURIN_MAX_GROUND_CHANGES 64
 #define BURIN_MAX_PASSES 32
 #define BURIN_MAX_SEGMENTS 6
+#if BURIN_FUNCTION_KINDS != 0
+#define BURIN_MAX_WAVE_SEGMENTS 64  // where a function changes the scales
+#else
+#define BURIN_MAX_WAVE_SEGMENTS BURIN_MAX_SEGMENTS
+#endif
 // Part of the depth under which two drops count as one: above float noise, below the texels' own steps.
 #define BURIN_SAME_DROP 1.0e-6f
 // Part of the depth under which two levels are one code: less than one step of UNORM16.

@@ -1,10 +1,12 @@
 #include "cpp/decode.hpp"
 
 #include <algorithm>
+#include <array>
 #include <thread>
 #include <vector>
 
 #include "cpp/glsl_shim.hpp"
+#include "cpp/drop_range.hpp"
 #include "layout.h"
 
 namespace burin {
@@ -31,6 +33,7 @@ class Core {
     }
 
 #include "core/fetch.glsl"
+#include "core/perturbation.glsl"
 #include "core/curve.glsl"
 #include "core/domain.glsl"
 #include "core/section.glsl"
@@ -39,6 +42,14 @@ class Core {
 #include "core/curvature.glsl"
 #include "core/surface.glsl"
 #include "core/residual.glsl"
+
+    // Shading by normal and light alone.
+    vec3 burin_facet_color(vec3 normal, uint, float lit) const { return vec3(normal.z, lit, 1.0f); }
+
+#include "core/footprint.glsl"
+#include "core/stripe.glsl"
+#include "core/region.glsl"
+#include "core/far.glsl"
 };
 
 Core make_core(const PackedTextures& textures, const PathDetail& detail) {
@@ -47,12 +58,15 @@ Core make_core(const PackedTextures& textures, const PathDetail& detail) {
     core.burin_map.size = vec2(float(detail.size_u), float(detail.size_v));
     core.burin_map.depth = float(detail.depth);
     core.burin_map.outer_level = float(detail.base_offset - detail.outer_level);
+    const std::array<float, 2> range = drop_range(textures, detail);
+    core.burin_map.drop_range = vec2(range[0], range[1]);
     core.burin_map.repeats = detail.repeat ? 1 : 0;
     core.burin_map.cells = ivec2(textures.grid_width, textures.grid_height);
     core.burin_map.first_style = int(textures.sections.styles_begin());
     core.burin_map.first_profile = int(textures.sections.profiles_begin());
     core.burin_map.first_material = int(textures.sections.materials_begin());
     core.burin_map.first_list = int(textures.sections.lists_begin());
+    core.burin_map.first_function = int(textures.sections.functions_begin());
     return core;
 }
 
@@ -97,7 +111,7 @@ SurfaceHit Decoder::trace_surface(const SurfacePlace& place, const std::array<do
     glsl::Core::BurinRay ray;
     ray.origin = glm::vec2(float(place.uv.x), float(place.uv.y)) * size;
     ray.slope = core.burin_slope_of(local);
-    const auto found = core.burin_trace_sight(bend, ray.origin, core.burin_eye_sight(bend, ray, local));
+    const auto found = core.burin_trace_sight(bend, ray.origin, core.burin_eye_sight(bend, ray.origin, ray, local));
     SurfaceHit hit;
     static_cast<DecodedHit&>(hit) = describe(core, found.hit);
     hit.way = double(found.way);

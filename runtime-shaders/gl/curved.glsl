@@ -14,6 +14,12 @@ float depth_of(vec3 world) {
 }
 #endif
 
+// The pixel's own: set by main before anything is traced or shaded.
+BurinRound bend;
+vec2 bend_start;   // pattern metres where the pixel's ray passes the mesh
+vec2 bend_moved;   // place of what is shaded, metres from there, and its drop
+float bend_drop;
+
 // The vertices bring derivatives, which part at mirrored faces and hold where a triangle is seen from its edge.
 bool has_frames() {
     return dot(world_duu, world_duu) + dot(world_duv, world_duv) + dot(world_dvv, world_dvv) > 0.0;
@@ -26,7 +32,7 @@ bool frames_hold(vec3 n, vec3 du, vec3 dv, vec3 along_u, vec3 along_v) {
 }
 
 // `own`: the frame comes from the vertices' own directions, with which these go.
-BurinBend pattern_bend(vec2 uv, mat3 frame, mat3 to_local, bool own) {
+BurinRound pattern_bend(vec2 uv, mat3 frame, mat3 to_local, bool own) {
     vec3 spread = uv_products - vec3(uv.x * uv.x, uv.x * uv.y, uv.y * uv.y);
     float known = own ? 1.0 : 0.0;
     return burin_bend_at(frame, to_local, known * world_duu, known * world_duv, known * world_dvv, spread);

@@ -36,6 +36,7 @@ namespace burin::gl {
     F(BINDTEXTURE, BindTexture)                      \
     F(ACTIVETEXTURE, ActiveTexture)                  \
     F(TEXIMAGE2D, TexImage2D)                        \
+    F(TEXIMAGE3D, TexImage3D)                        \
     F(TEXPARAMETERI, TexParameteri)                  \
     F(GENERATEMIPMAP, GenerateMipmap)                \
     F(PIXELSTOREI, PixelStorei)                      \

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "cpp/drop_range.hpp"
+#include "cpp/prefilter.hpp"
 #include "gl/shader_text.hpp"
 
 namespace burin::gl {
@@ -12,6 +14,7 @@ constexpr const char* kVersion =
     "#version 330 core\n#define BURIN_OUT(type) out type\n#define BURIN_INOUT(type) inout type\n";
 
 constexpr int kResidualUnit = 3;  // behind those of the pattern and the renderer's own
+constexpr int kPrefilterUnit = 4;
 
 // Log of a shader or program, shortened to its first lines.
 template <typename Query, typename Log>
@@ -72,32 +75,67 @@ GLuint make_residual(const Functions& gl, const RgbaImage& picture, bool repeat)
     return name;
 }
 
+// Weights of the prefilter's classes, four to a layer, with their averages over ever larger blocks.
+GLuint make_prefilter(const Functions& gl, const Prefilter& filter, bool repeat) {
+    const std::size_t layers = std::max<std::size_t>((filter.classes.size() + 3) / 4, 1);
+    const int columns = std::max(filter.columns, 1), rows = std::max(filter.rows, 1);
+    std::vector<float> texels(layers * 4 * std::size_t(columns) * std::size_t(rows), 0.0f);
+    for (std::size_t k = 0; k < filter.classes.size(); ++k)
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < columns; ++x)
+                texels[((k / 4 * std::size_t(rows) + std::size_t(y)) * std::size_t(columns) + std::size_t(x)) * 4 + k % 4] =
+                    filter.weight(k, x, y);
+    GLuint name = 0;
+    gl.GenTextures(1, &name);
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, name);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA16F, columns, rows, GLsizei(layers), 0, GL_RGBA, GL_FLOAT, texels.data());
+    gl.GenerateMipmap(GL_TEXTURE_2D_ARRAY);
+    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        gl.TexParameteri(GL_TEXTURE_2D_ARRAY, side, repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    return name;
+}
+
 }  // namespace
 
-std::string fragment_text(Stage stage) {
+int function_kinds(const PackedTextures& textures) {
+    int kinds = 0;
+    for (std::uint32_t at = 0; at < textures.sections.function_texels;) {
+        const Texel head = data_texel(textures, textures.sections.functions_begin() + at);
+        kinds |= 1 << (head[0] & 3u);
+        at += function_texel_count(head);
+    }
+    return kinds & 7;
+}
+
+std::string fragment_text(Stage stage, int function_kinds) {
     std::string text = kVersion;
-    const bool surface = stage == Stage::surface || stage == Stage::surface_with_depth;
     if (stage == Stage::surface_with_depth) text += "#define BURIN_CORRECT_DEPTH\n";
+    text += "#define BURIN_FUNCTION_KINDS " + std::to_string(function_kinds) + "\n";
     text += shader_text::layout;
     text += shader_text::types;
     text += shader_text::bindings;
     for (const char* part :
-         {shader_text::fetch, shader_text::curve, shader_text::domain, shader_text::section,
+         {shader_text::fetch, shader_text::perturbation, shader_text::curve, shader_text::domain, shader_text::section,
           shader_text::ground, shader_text::trace, shader_text::curvature, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
         text += part;
-    if (surface) text += shader_text::curved;
-    text += stage == Stage::rays ? shader_text::rays_frag
-                                 : (stage == Stage::top ? shader_text::top_frag : shader_text::surface_frag);
+    if (stage == Stage::rays) return text + shader_text::rays_frag;
+    if (stage == Stage::top) return text + shader_text::top_frag;
+    for (const char* part : {shader_text::curved, shader_text::frame, shader_text::shade, shader_text::footprint, shader_text::stripe,
+                             shader_text::region, shader_text::far, shader_text::far_fetch, shader_text::surface_frag})
+        text += part;
     return text;
 }
 
-Result<Program> Program::build(const Functions& gl, Stage stage) {
+Result<Program> Program::build(const Functions& gl, Stage stage, int function_kinds) {
     const std::string vertex_text =
         std::string(kVersion) +
         (stage == Stage::rays || stage == Stage::top ? shader_text::screen_vert : shader_text::surface_vert);
     auto vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
     if (!vertex) return vertex.error();
-    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage));
+    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage, function_kinds));
     if (!fragment) {
         gl.DeleteShader(*vertex);
         return fragment.error();
@@ -130,14 +168,22 @@ DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textur
       data_width_(textures.data_width),
       grid_width_(textures.grid_width),
       grid_height_(textures.grid_height),
+      drop_range_(drop_range(textures, detail)),
       has_residual_(residual.width > 0) {
     names_[0] = make_texture(gl, GL_RG32UI, GL_RG_INTEGER, grid_width_, grid_height_, textures.grid, 2);
     names_[1] =
         make_texture(gl, GL_RGBA32UI, GL_RGBA_INTEGER, data_width_, textures.data_height, textures.data, 4);
     names_[2] = make_residual(gl, residual, detail.repeat);
+    if (textures.sections.end() > 0) {
+        Prefilter filter = prefilter_pattern(textures, detail);
+        names_[3] = make_prefilter(gl, filter, detail.repeat);
+        classes_ = std::move(filter.classes);
+    } else {
+        names_[3] = make_prefilter(gl, {}, detail.repeat);
+    }
 }
 
-DetailTextures::~DetailTextures() { gl_.DeleteTextures(3, names_); }
+DetailTextures::~DetailTextures() { gl_.DeleteTextures(4, names_); }
 
 void DetailTextures::bind(const Program& program) const {
     for (int i = 0; i < 2; ++i) {
@@ -148,18 +194,29 @@ void DetailTextures::bind(const Program& program) const {
     gl_.BindTexture(GL_TEXTURE_2D, names_[2]);
     program.set("burin_residual", kResidualUnit);
     program.set("burin_residual_scale", has_residual_ ? float(detail_.residual_scale) : 0.0f);
+    gl_.ActiveTexture(GLenum(GL_TEXTURE0 + kPrefilterUnit));
+    gl_.BindTexture(GL_TEXTURE_2D_ARRAY, names_[3]);
+    program.set("burin_prefilter", kPrefilterUnit);
+    program.set("burin_class_count", int(classes_.size()));
+    for (std::size_t k = 0; k < classes_.size(); ++k) {
+        const PrefilterClass& kind = classes_[k];
+        gl_.Uniform4f(program.at(("burin_classes[" + std::to_string(k) + "]").c_str()), float(kind.style),
+                      float(kind.tangent.x), float(kind.tangent.y), float(kind.height));
+    }
     program.set("burin_grid", 0);
     program.set("burin_data", 1);
     program.set("burin_data_width", data_width_);
     program.set("burin_map.size", float(detail_.size_u), float(detail_.size_v));
     program.set("burin_map.depth", float(detail_.depth));
     program.set("burin_map.outer_level", float(detail_.base_offset - detail_.outer_level));
+    program.set("burin_map.drop_range", drop_range_[0], drop_range_[1]);
     program.set("burin_map.repeats", detail_.repeat ? 1 : 0);
     gl_.Uniform2i(program.at("burin_map.cells"), grid_width_, grid_height_);
     program.set("burin_map.first_style", int(sections_.styles_begin()));
     program.set("burin_map.first_profile", int(sections_.profiles_begin()));
     program.set("burin_map.first_material", int(sections_.materials_begin()));
     program.set("burin_map.first_list", int(sections_.lists_begin()));
+    program.set("burin_map.first_function", int(sections_.functions_begin()));
 }
 
 Result<std::unique_ptr<FloatTarget>> FloatTarget::create(const Functions& gl, int width, int height,

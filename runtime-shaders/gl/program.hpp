@@ -9,6 +9,7 @@
 #include <burin/image_io.hpp>
 #include <burin/result.hpp>
 
+#include "cpp/prefilter.hpp"
 #include "gl/context.hpp"
 
 namespace burin::gl {
@@ -16,13 +17,16 @@ namespace burin::gl {
 // Which fragment shader of this folder a program ends in.
 enum class Stage { rays, top, surface, surface_with_depth };  // the last writes the depth of what is met
 
-// Text of a fragment shader as the driver gets it: version, layout.h, core, bindings, main.
-std::string fragment_text(Stage stage);
+// Kinds of functions along paths that the textures hold, for BURIN_FUNCTION_KINDS of core/types.glsl.
+int function_kinds(const PackedTextures& textures);
+
+// Text of a fragment shader as the driver gets it: version, kinds of functions, layout.h, core, bindings, main.
+std::string fragment_text(Stage stage, int function_kinds);
 
 class Program {
   public:
-    // Fails with unavailable, carrying the driver's log.
-    static Result<Program> build(const Functions& gl, Stage stage);
+    // For textures with no other kinds of functions. Fails with unavailable, carrying the driver's log.
+    static Result<Program> build(const Functions& gl, Stage stage, int function_kinds);
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
     ~Program();
@@ -58,8 +62,10 @@ class DetailTextures {
     Sections sections_;
     int data_width_;
     int grid_width_, grid_height_;
+    std::array<float, 2> drop_range_;
     bool has_residual_;
-    GLuint names_[3] = {0, 0, 0};
+    std::vector<PrefilterClass> classes_;
+    GLuint names_[4] = {0, 0, 0, 0};
 };
 
 // A framebuffer of RGBA float colours, with depth if asked.

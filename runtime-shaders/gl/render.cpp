@@ -411,12 +411,63 @@ class WantedTexture {
     GLuint name_ = 0;
 };
 
+// pixel_filter of surface.frag.
+enum class PixelFilter { rays, regions, marked, quarters };
+
+void set_filter(const gl::Program& program, PixelFilter filter, int side = 1) {
+    program.set("pixel_filter", int(filter));
+    program.set("side", side);
+}
+
+// Rays per side of a pixel: an even number, so that they fall into quarters.
+int ray_side(const RenderOptions& options) { return 2 * int(std::ceil(std::sqrt(double(options.rays)) / 2.0 - 1e-9)); }
+
+// Adds the rays that `pixels` asks for in its fourth channel.
+void add_marked_rays(const gl::Functions& gl, const gl::Program& program, const Asset& asset, const Scene& scene,
+                     const gl::FloatTarget& target, const WantedTexture& wanted, const RenderOptions& options,
+                     std::vector<float>& pixels) {
+    std::vector<std::uint8_t> marks(pixels.size() / 4);
+    for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = std::uint8_t(pixels[4 * i + 3]);
+    if (std::all_of(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark == 0; })) return;
+    wanted.set(marks, options.width, options.height);
+    set_filter(program, PixelFilter::quarters);
+    const int side = ray_side(options);
+    for (int k = 0; k < side * side; ++k) {
+        const double x = (k % side + 0.5) / side - 0.5, y = (k / side + 0.5) / side - 0.5;
+        program.set("ray_place", float(x), float(y));
+        draw_pass(gl, program, asset, scene);
+        const std::vector<float> found = target.read(0);
+        const int quarter = (x < 0.0 ? 0 : 1) + (y < 0.0 ? 0 : 2);
+        for (std::size_t i = 0; i < marks.size(); ++i)
+            if ((marks[i] >> quarter & 1) != 0)
+                for (std::size_t c = 0; c < 3; ++c) pixels[4 * i + c] += found[4 * i + c] / float(side * side);
+    }
+}
+
+// One picture of the whole, filtered over the part of the pixel that a sample stands for.
+std::vector<float> draw_sample(const gl::Functions& gl, const gl::Program& program, const Asset& asset, const Scene& scene,
+                               const gl::FloatTarget& target, const WantedTexture& wanted,
+                               const RenderOptions& options) {
+    const bool regions = options.antialiasing == Antialiasing::regions;
+    const bool marked = regions && !options.one_run;
+    if (regions)
+        set_filter(program, marked ? PixelFilter::marked : PixelFilter::regions, ray_side(options));
+    else
+        set_filter(program, PixelFilter::rays);
+    draw_pass(gl, program, asset, scene);
+    std::vector<float> pixels = target.read(0);
+    if (marked) add_marked_rays(gl, program, asset, scene, target, wanted, options, pixels);
+    return pixels;
+}
+
 Status check(const Asset& asset, const RenderOptions& options) {
     const Camera& camera = options.camera;
     if (options.width < 1 || options.height < 1 || options.width > 8192 || options.height > 8192)
         return Error{ErrorCode::invalid_argument, "a picture's sides must be 1 to 8192 pixels"};
     if (options.samples < 1 || options.samples > 256)
         return Error{ErrorCode::invalid_argument, "samples per pixel must be 1 to 256"};
+    if (options.rays < 4 || options.rays > 64)
+        return Error{ErrorCode::invalid_argument, "rays per sample must be 4 to 64"};
     if (!(camera.zoom > 0.0) || !(camera.field_of_view > 0.0) || camera.field_of_view > 120.0)
         return Error{ErrorCode::invalid_argument,
                      "zoom must be above 0, the angle of view above 0 and at most 120 degrees"};
@@ -432,7 +483,10 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     auto context = gl::open_context(options.backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
-    auto program = gl::Program::build(gl, options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface);
+    int kinds = 0;
+    for (const auto& material : asset.materials)
+        if (material.has_detail) kinds |= gl::function_kinds(material.textures);
+    auto program = gl::Program::build(gl, options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface, kinds);
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
     if (!target) return target.error();
@@ -443,12 +497,14 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     gl.Enable(GL_DEPTH_TEST);
     gl.CullFace(GL_BACK);
     gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]),
-                  to_linear(options.background[2]), 1.0f);
+                  to_linear(options.background[2]), 0.0f);
     (*target)->bind();
     const std::vector<Vec2> places = sample_places(int(std::ceil(std::sqrt(double(options.samples)) - 1e-9)));
     Accumulator sums(options.width, options.height);
     const WantedTexture wanted(gl);
     wanted.set(sums.wanted(), options.width, options.height);
+    const int side = int(std::round(std::sqrt(double(places.size()))));
+    program->set("pixel_part", 1.0f / float(side));
     program->set("wanted", 2);
     program->set("everywhere", 1);
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -459,8 +515,8 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
         }
         const glm::mat4 matrix = projection(view, options, places[k].x, places[k].y);
         gl.UniformMatrix4fv(program->at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix));
-        draw_pass(gl, *program, asset, scene);
-        sums.add((*target)->read(0));
+        sums.add(draw_sample(gl, *program, asset, scene, **target, wanted, options));
+        wanted.set(sums.wanted(), options.width, options.height);
     }
     return sums.image();
 }

@@ -50,6 +50,10 @@ struct Light {
     double ambient = 0.22;    // of the same
 };
 
+// How the shader filters a pixel. points: the mean of rays. regions: the features of a pixel as areas, exact where they
+// do not meet, and rays where they do; [2010] 5.7.
+enum class Antialiasing { points, regions };
+
 struct RenderOptions {
     int width = 1024, height = 768;  // pixels, [1, 8192]
     Camera camera;
@@ -61,6 +65,13 @@ struct RenderOptions {
     // Per pixel, [1, 256], rounded up to a square number. Four come first; the rest go where those or their
     // neighbours differ by a step of the picture's 8 bits.
     int samples = 16;
+    Antialiasing antialiasing = Antialiasing::regions;
+    // With regions: rays per sample where features meet, 4 or 16; [4, 64], rounded up to an even square. With points every
+    // sample is one ray.
+    int rays = 16;
+    // Everything in one run of the shader, as an engine does it. Otherwise the rays of `rays` are runs of their own, which
+    // suits a CPU better: OSMesa ends a shader after 65535 turns of its loops.
+    bool one_run = false;
     std::array<float, 3> background = {0.93f, 0.93f, 0.93f};  // sRGB
     Backend backend = Backend::osmesa;
 };

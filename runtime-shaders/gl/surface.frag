@@ -1,125 +1,173 @@
-// A material with path detail: the view ray goes into pattern space, the decoder finds what it meets, and that is
+// A material with path detail: the view ray goes into pattern space, the decoder finds what the pixel shows, and that is
 // shaded and shadowed. Without detail the mesh itself is shaded.
 uniform vec3 eye;           // of a perspective camera
 uniform vec3 view;          // direction of an orthographic one; zero for perspective
-uniform vec3 light;         // towards the light, unit length
-uniform float light_strength;
-uniform float ambient;
-uniform vec4 base_color;    // linear
-uniform float metallic;
-uniform float roughness;
 uniform int has_detail;
 uniform int shadows;
+// How the pixel is filtered. RAYS: side x side rays. REGIONS: as a whole, and by rays only where that does not suffice.
+// MARKED: as REGIONS without the rays; alpha names the quarters that want them, a bit each. QUARTERS: one ray, at
+// ray_place, where `wanted` has the bit of the quarter that it lies in. The last two are one picture in several passes.
+#define FILTER_RAYS 0
+#define FILTER_REGIONS 1
+#define FILTER_MARKED 2
+#define FILTER_QUARTERS 3
+uniform int pixel_filter;
+uniform int side;           // rays per side of the pixel, 1 to 4
+uniform vec2 ray_place;     // within the pixel, -0.5 to 0.5
+uniform float pixel_part;   // side of what is filtered, in pixels: below 1 where several pictures are averaged
 uniform highp sampler2D wanted;  // one texel per pixel: 0 where the picture needs no further sample
 uniform int everywhere;          // 1: all pixels are drawn
-in vec3 world_position;
-in vec3 world_normal;
-in vec2 pattern_uv;
-in vec3 world_along_u;
-in vec3 world_along_v;
 layout(location = 0) out vec4 color;
 
-// World directions of one unit of u and of v, from the derivatives of the triangle: exact on flat faces, and it jumps
-// from face to face on round ones, where the mesh's own directions are better.
-void derived_directions(BURIN_OUT(vec3) along_u, BURIN_OUT(vec3) along_v) {
-    vec3 px = dFdx(world_position);
-    vec3 py = dFdy(world_position);
-    vec2 ux = dFdx(pattern_uv);
-    vec2 uy = dFdy(pattern_uv);
-    float area = ux.x * uy.y - ux.y * uy.x;
-    area = abs(area) > 1.0e-30 ? area : 1.0e-30;
-    along_u = (px * uy.y - py * ux.y) / area;
-    along_v = (py * ux.x - px * uy.x) / area;
+vec2 uv_along_x;
+vec2 uv_along_y;
+vec2 light_slope;   // metres that the light moves over the plane per metre of fall
+bool light_above;
+vec3 eye_direction;  // in the local frame, of unit length in space
+
+// Normals and light are those at a place of the relief.
+void stand_at(vec2 moved, float drop) {
+    bend_moved = moved;
+    bend_drop = drop;
+    vec3 toward = to_pattern * light;
+    if (bend.bent) {
+        mat3 here = burin_bend_frame(bend, moved, drop);
+        // Near a pole of the uvs the second order says nothing about so far a place.
+        if (determinant(here) > 0.1) toward = inverse(here) * toward;
+    }
+    light_above = toward.z > 0.0;
+    light_slope = burin_slope_of(-toward);
 }
 
-// Columns: world directions of one metre along x, y and z of pattern space. `own`: as the mesh brings them.
-mat3 pattern_frame(vec3 n, BURIN_OUT(bool) own) {
-    vec3 along_u;
-    vec3 along_v;
-    derived_directions(along_u, along_v);
-    // Where mirrored faces meet, what the mesh brings cancels out.
-    own = dot(world_along_u, along_u) > 0.5 * dot(along_u, along_u) &&
-          dot(world_along_v, along_v) > 0.5 * dot(along_v, along_v);
-    if (has_frames()) own = frames_hold(n, world_along_u, world_along_v, along_u, along_v);
-    vec3 along_x = (own ? world_along_u : along_u) / burin_map.size.x;
-    vec3 along_y = (own ? world_along_v : along_v) / burin_map.size.y;
-    return mat3(along_x - n * dot(along_x, n), along_y - n * dot(along_y, n), n);
+// What one ray meets, shadow included; w: 0 where it leaves the object beside its outline.
+vec4 point_color(BurinRay ray) {
+    BurinFound found = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction));
+    BurinHit hit = found.hit;
+    if (!hit.met) return vec4(0.0);
+    BurinSurface surface = burin_surface(hit);
+    rest_slopes = fetch_residual(hit.ray.origin + hit.ray.slope * hit.t, uv_along_x, uv_along_y);
+    stand_at(found.place - bend_start, hit.t);
+    float lit = light_above ? 1.0 : 0.0;
+    float before = hit.t - 4.0e-3 * burin_map.depth;
+    if (shadows != 0 && light_above && before > 0.0) {
+        BurinRay shadow;
+        shadow.slope = light_slope;
+        shadow.origin = hit.ray.origin + (hit.ray.slope - light_slope) * hit.t;
+        BurinSight sight = burin_light_sight(bend, shadow, before, found, bend_start, ray.origin, eye_direction, to_pattern * light);
+        if (burin_trace_sight(bend, bend_start, sight).hit.met) lit = 0.0;
+    }
+    return vec4(burin_facet_color(surface.normal, surface.material, lit), 1.0);
 }
 
-// Lambert and GGX with Smith's shadowing, for one light; colours linear.
-vec3 shade(vec3 n, vec3 to_eye, vec3 albedo, float metal, float rough, float lit) {
-    vec3 halfway = normalize(to_eye + light);
-    float nl = max(dot(n, light), 0.0);
-    float nv = max(dot(n, to_eye), 1.0e-3);
-    float nh = max(dot(n, halfway), 0.0);
-    float a = max(rough * rough, 2.0e-3);
-    float a2 = a * a;
-    float d = a2 / (3.14159265 * pow(nh * nh * (a2 - 1.0) + 1.0, 2.0));
-    float visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1.0e-6);
-    vec3 f0 = mix(vec3(0.04), albedo, metal);
-    vec3 fresnel = f0 + (vec3(1.0) - f0) * pow(1.0 - max(dot(to_eye, halfway), 0.0), 5.0);
-    vec3 diffuse = albedo * (1.0 - metal) / 3.14159265;
-    vec3 direct = (diffuse * (vec3(1.0) - fresnel) + fresnel * (d * visible)) * (nl * lit * light_strength);
-    // The sky is brighter than the ground; a metal mirrors what a matt surface gathers.
-    float sky = 0.5 + 0.5 * n.y;
-    vec3 around = mix(albedo * (1.0 - metal), fresnel * mix(1.0, 0.75, rough), mix(0.1, 1.0, metal));
-    return direct + around * ambient * mix(0.35, 1.0, sky);
+// Mean of side x side rays over a part of the pixel; along_x and along_y are that part's sides. w: part of them that meet
+// something; the colour is the mean of those.
+vec4 sampled_color(BurinRay ray, vec2 along_x, vec2 along_y, int side) {
+    vec4 sum = vec4(0.0);
+    for (int k = 0; k < 16; ++k) {
+        if (k >= side * side) break;
+        vec2 at = (vec2(float(k % side), float(k / side)) + 0.5) / float(side) - 0.5;
+        BurinRay sample_ray = ray;
+        sample_ray.origin = ray.origin + along_x * at.x + along_y * at.y;
+        sum += point_color(sample_ray);
+    }
+    return vec4(sum.rgb / max(sum.w, 1.0), sum.w / float(side * side));
+}
+
+// The whole pixel at once where its features do not meet; else its quarters; and those where they do, by rays.
+vec4 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
+    vec3 sum = vec3(0.0);
+    int marks = 0;
+    for (int part = 0; part <= 4; ++part) {
+        BurinRay part_ray = ray;
+        vec2 x = along_x;
+        vec2 y = along_y;
+        if (part > 0) {
+            x = along_x * 0.5;
+            y = along_y * 0.5;
+            part_ray.origin = ray.origin + x * (float((part - 1) % 2) - 0.5) + y * (float((part - 1) / 2) - 0.5);
+        }
+        ivec2 index = burin_cell_at(part_ray.origin - floor(part_ray.origin / burin_map.size) * burin_map.size * float(burin_map.repeats));
+        float level = burin_cell(index).level;
+        rest_slopes = fetch_residual(part_ray.origin + part_ray.slope * level, uv_along_x, uv_along_y);
+        vec3 ground = burin_facet_color(vec3(0.0, 0.0, 1.0), 0u, light_above ? 1.0 : 0.0);
+        BurinRegion region = burin_region(part_ray, burin_footprint(x, y), light_slope, shadows != 0 && light_above, ground);
+        vec3 found = ground + region.color;
+        // From a pixel that spans many features to one that spans too many: the prefilter takes over by degrees.
+        float far = smoothstep(0.4, 0.9, region.fullness);
+        if (far > 0.0) {
+            vec2 place = part_ray.origin + part_ray.slope * level;
+            vec3 beyond = ground + far_color(place, ray.slope, light_slope, shadows != 0 && light_above, ground, uv_along_x, uv_along_y);
+            if (far >= 1.0 && part == 0) return vec4(beyond, 0.0);
+            found = mix(found, beyond, far);
+        }
+        if (part == 0) {
+            if (region.special == 0u) return vec4(found, 0.0);
+            continue;
+        }
+        if (region.special != 0u) {
+            found = vec3(0.0);
+            if (pixel_filter == FILTER_MARKED) marks += 1 << (part - 1);
+            else found = sampled_color(part_ray, x, y, max(side / 2, 1)).rgb;
+        }
+        sum += found * 0.25;
+    }
+    return vec4(sum, float(marks));
+}
+
+bool is_wanted() {
+    int bits = int(texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x * 255.0 + 0.5);
+    if (pixel_filter != FILTER_QUARTERS) return everywhere != 0 || bits != 0;
+    int quarter = (ray_place.x < 0.0 ? 0 : 1) + (ray_place.y < 0.0 ? 0 : 2);
+    return ((bits >> quarter) & 1) != 0;
 }
 
 void main() {
-    if (everywhere == 0 && texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x == 0.0) discard;
-    vec3 to_eye = dot(view, view) > 0.0 ? -view : normalize(eye - world_position);
+    if (!is_wanted()) discard;
+    to_eye = dot(view, view) > 0.0 ? -view : normalize(eye - world_position);
     vec3 n = normalize(world_normal);
-    vec2 uv_along_x = dFdx(pattern_uv);
-    vec2 uv_along_y = dFdy(pattern_uv);
+    uv_along_x = dFdx(pattern_uv) * pixel_part;
+    uv_along_y = dFdy(pattern_uv) * pixel_part;
     if (dot(n, to_eye) < 0.0 && !gl_FrontFacing) n = -n;
-    vec3 albedo = base_color.rgb;
-    float metal = metallic;
-    float rough = roughness;
-    float lit = 1.0;
-    vec3 shading_normal = n;
 #ifdef BURIN_CORRECT_DEPTH
     gl_FragDepth = gl_FragCoord.z;
 #endif
     bool own;
     mat3 frame = pattern_frame(n, own);
     float handed = determinant(frame);
-    if (has_detail != 0 && abs(handed) > 1.0e-12 && dot(n, to_eye) > 1.0e-3) {
-        mat3 to_pattern = inverse(frame);
-        BurinBend bend = pattern_bend(pattern_uv, frame, to_pattern, own);
-        vec3 direction = to_pattern * -to_eye;
-        BurinRay ray;
-        ray.origin = pattern_uv * burin_map.size;
-        ray.slope = burin_slope_of(direction);
-        BurinSight sight = burin_eye_sight(bend, ray, direction);
-        BurinFound found = burin_trace_sight(bend, ray.origin, sight);
-        BurinHit hit = found.hit;
-        if (!hit.met) discard;
-#ifdef BURIN_CORRECT_DEPTH
-        gl_FragDepth = depth_of(world_position - to_eye * found.way);
-#endif
-        BurinSurface surface = burin_surface(hit);
-        vec2 place = hit.ray.origin + hit.ray.slope * hit.t;
-        vec3 detailed = burin_add_slopes(surface.normal, fetch_residual(place, uv_along_x, uv_along_y));
-        vec2 moved = found.place - ray.origin;
-        shading_normal = normalize(transpose(to_pattern) * burin_bend_normal(bend, moved, hit.t, detailed));
-        BurinMaterial material = burin_material(surface.material);
-        if (material.overrides) {
-            albedo = material.base_color.rgb;
-            metal = material.metallic;
-            rough = material.roughness;
-        }
-        vec3 toward = to_pattern * light;
-        float rise = dot(burin_bend_normal(bend, moved, hit.t, vec3(0.0, 0.0, 1.0)), toward);
-        if (shadows != 0 && dot(shading_normal, light) > 0.0 && rise > 0.0) {
-            BurinRay shadow;
-            shadow.slope = burin_slope_of(-toward);
-            shadow.origin = hit.ray.origin + (hit.ray.slope - shadow.slope) * hit.t;
-            float before = hit.t - 4.0e-3 * burin_map.depth;
-            BurinSight lit_from = burin_light_sight(bend, shadow, before, found, sight, ray.origin, toward);
-            if (before > 0.0 && burin_trace_sight(bend, ray.origin, lit_from).hit.met) lit = 0.0;
-        }
-        if (rise <= 0.0) lit = 0.0;
+    if (has_detail == 0 || abs(handed) <= 1.0e-12 || dot(n, to_eye) <= 1.0e-3) {
+        color = vec4(clamp(shade(n, base_color.rgb, metallic, roughness, 1.0), 0.0, 1.0), 0.0);
+        return;
     }
-    color = vec4(clamp(shade(shading_normal, to_eye, albedo, metal, rough, lit), 0.0, 1.0), 1.0);
+    to_pattern = inverse(frame);
+    bend = pattern_bend(pattern_uv, frame, to_pattern, own);
+    bend_start = pattern_uv * burin_map.size;
+    eye_direction = to_pattern * -to_eye;
+    BurinRay ray;
+    ray.origin = bend_start;
+    ray.slope = burin_slope_of(eye_direction);
+    stand_at(vec2(0.0), 0.0);
+#ifdef BURIN_CORRECT_DEPTH
+    BurinFound middle = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction));
+    if (middle.hit.met) gl_FragDepth = depth_of(world_position - to_eye * middle.way);
+#endif
+    vec2 along_x = uv_along_x * burin_map.size;
+    vec2 along_y = uv_along_y * burin_map.size;
+    if (pixel_filter == FILTER_REGIONS || pixel_filter == FILTER_MARKED) {
+        BurinRay straight = ray;
+        float drop = 0.0;
+        if (burin_straighten(bend, eye_direction, straight, drop)) {
+            stand_at(straight.origin + straight.slope * drop - bend_start, drop);
+            color = filtered_color(straight, along_x, along_y);
+            return;
+        }
+        // Beside the outline of a round surface nothing straight stands in for the ray.
+        if (pixel_filter == FILTER_MARKED) {
+            color = vec4(0.0, 0.0, 0.0, 15.0);
+            return;
+        }
+    }
+    if (pixel_filter == FILTER_QUARTERS) ray.origin += along_x * ray_place.x + along_y * ray_place.y;
+    vec4 seen = sampled_color(ray, along_x, along_y, pixel_filter == FILTER_QUARTERS ? 1 : side);
+    if (seen.w == 0.0) discard;
+    color = vec4(seen.rgb, 0.0);
 }

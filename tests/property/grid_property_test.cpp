@@ -11,6 +11,7 @@
 #include <burin/grid.hpp>
 
 #include "layout.h"
+#include "perturbed.hpp"
 #include "random_pattern.hpp"
 
 namespace burin {
@@ -24,7 +25,8 @@ ResolvedPattern resolved(std::uint64_t seed, Wrap wrap) {
     testing::RandomPatternOptions options;
     options.wrap = wrap;
     if (seed % 3 == 0) options.size = {2.0, 1.0};
-    const Pattern pattern = testing::random_pattern(seed, options);
+    // Every third is perturbed as well.
+    const Pattern pattern = seed % 3 == 1 ? testing::perturbed_pattern(seed, options) : testing::random_pattern(seed, options);
     Result<ResolvedPattern> result = resolve_pattern(pattern, {.lenient = true});
     EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
     return result.ok() ? *result : ResolvedPattern{};

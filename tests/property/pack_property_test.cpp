@@ -11,6 +11,7 @@
 #include <burin/format/validate.hpp>
 #include <burin/pack.hpp>
 
+#include "perturbed.hpp"
 #include "random_pattern.hpp"
 #include "specification_reader.hpp"
 
@@ -33,8 +34,9 @@ Packed packed(std::uint64_t seed, Wrap wrap) {
     testing::RandomPatternOptions options;
     options.wrap = wrap;
     if (seed % 3 == 0) options.size = {2.0, 1.0};
-    Result<ResolvedPattern> resolved =
-        resolve_pattern(testing::random_pattern(seed, options), {.lenient = true});
+    // Every other one is perturbed as well.
+    Result<ResolvedPattern> resolved = resolve_pattern(
+        seed % 2 == 0 ? testing::perturbed_pattern(seed, options) : testing::random_pattern(seed, options), {.lenient = true});
     EXPECT_TRUE(resolved.ok()) << (resolved.ok() ? "" : resolved.error().message);
     if (!resolved.ok()) return p;
     p.pattern = std::move(*resolved);
@@ -65,6 +67,7 @@ SpecificationReader reader_of(const Packed& p) {
     q.styles = p.detail.sections.style_texels;
     q.profiles = p.detail.sections.profile_texels;
     q.materials = p.detail.sections.material_texels;
+    q.lists = p.detail.sections.list_texels;
     return {q, bytes_from_words(p.textures.grid), bytes_from_words(p.textures.data)};
 }
 

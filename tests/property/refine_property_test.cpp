@@ -403,6 +403,29 @@ TEST(Refine, APatternThatTheMapContradictsIsNotWorseAfterwards) {
     EXPECT_LT(cross_distance(pattern, drawn) * 256, 4.0);
 }
 
+// The fit knows linear scales alone, so what a function changes stays as it is.
+TEST(Refine, APerturbedPatternComesBackAsItCame) {
+    Pattern pattern;
+    pattern.profiles = {{{{-0.05, 0}, {0, -0.003}, {0.05, 0}}, {}}};
+    Path path;
+    path.elements.resize(1);
+    path.elements[0].p0 = {0.1, 0.3}, path.elements[0].p2 = {0.9, 0.7};
+    pattern.paths = {path};
+    const Image map = map_of(pattern, 64, 64, 2);
+    pattern.paths[0].elements[0].p0.y = 0.31;
+    Pattern waved = pattern;
+    waved.perturbations.push_back({});
+    waved.paths[0].perturbation = 0;
+    const Pattern before = waved;
+    const Result<RefineReport> report = refine_pattern(waved, map);
+    ASSERT_TRUE(report.ok());
+    EXPECT_EQ(report->iterations, 0);
+    EXPECT_TRUE(same_bits(waved, before));
+    EXPECT_EQ(waved.paths[0].perturbation, 0u);
+    ASSERT_TRUE(refine_pattern(pattern, map).ok());
+    EXPECT_FALSE(same_bits(pattern, before));
+}
+
 TEST(Refine, SaysWhatIsWrong) {
     Pattern pattern = bench::plate(256, {5.0, 1.0});
     const Pattern before = pattern;

@@ -20,7 +20,7 @@ class SpecificationReader {
         double depth = 0, base_offset = 0, outer_level = 0;
         bool repeat = true;
         int grid_width = 0, grid_height = 0;
-        unsigned elements = 0, styles = 0, profiles = 0, materials = 0;
+        unsigned elements = 0, styles = 0, profiles = 0, materials = 0, lists = 0;
     };
 
     SpecificationReader(const Properties& properties, std::vector<std::uint8_t> grid,
@@ -85,6 +85,9 @@ class SpecificationReader {
         Point p0, p1, p2;
         bool quadratic;
         double width[2], height[2];
+        bool follows;  // a function
+        unsigned function;
+        double argument[2];
         End ends[2];
         Style style;
     };
@@ -156,6 +159,12 @@ class SpecificationReader {
                 e.width[k] = bits(data(t + 1, 2), 16 * k, 16 * k + 15) / 16384.0;
                 e.height[k] = bits(data(t + 1, 3), 16 * k, 16 * k + 15) / 16384.0;
             }
+        }
+        e.follows = bits(z, 30, 30) != 0;
+        if (e.follows) {
+            const unsigned c = t + 1 + bits(z, 29, 29);
+            e.argument[0] = data(c, 0) / 65536.0, e.argument[1] = data(c, 1) / 65536.0;
+            e.function = bits(data(c, 2), 0, 15);
         }
         if (!e.quadratic) e.p1 = {(e.p0.x + e.p2.x) / 2, (e.p0.y + e.p2.y) / 2};
         const Point t0 = unit(sub(e.p1, e.p0)), t2 = unit(sub(e.p2, e.p1));
@@ -262,6 +271,52 @@ class SpecificationReader {
         return side >= 0;
     }
 
+    // Section 6.4: the argument at s, and the factor of width (0) or height (1) there.
+    static double argument(const Element& e, double s) {
+        const auto v = [&e](double u) {
+            const Point a = sub(e.p1, e.p0), b = sub(e.p2, e.p1);
+            return norm({(1 - u) * a.x + u * b.x, (1 - u) * a.y + u * b.y});
+        };
+        const double g = std::sqrt(3.0 / 5.0);
+        const auto run = [&](double to) {
+            return to * (5 * v((1 - g) * to / 2) + 8 * v(to / 2) + 5 * v((1 + g) * to / 2));
+        };
+        return e.argument[0] + (e.argument[1] - e.argument[0]) * (e.quadratic ? run(s) / run(1) : s);
+    }
+    static double lattice(std::uint32_t seed, std::uint32_t period, std::uint32_t k, std::uint32_t i, unsigned which) {
+        if (period != 0) i %= period << k;
+        std::uint32_t h = i + seed * 0x9e3779b9u + k * 0x85ebca6bu;
+        h = (h ^ (h >> 16)) * 0x7feb352du;
+        h = (h ^ (h >> 15)) * 0x846ca68bu;
+        h ^= h >> 16;
+        return 2.0 * bits(h, 16 * which, 16 * which + 15) / 65535.0 - 1;
+    }
+    double factor(unsigned function, double a, unsigned which) const {
+        const unsigned t = q_.elements + q_.styles + q_.profiles + q_.materials + q_.lists + function;
+        const double amplitude = snorm(bits(data(t, 1), 16 * which, 16 * which + 15));
+        const unsigned kind = bits(data(t, 0), 0, 1);
+        if (kind == 0) return 1 + amplitude * std::sin(2 * std::numbers::pi * a);
+        if (kind == 1) {
+            double sum = 0;
+            for (unsigned c = 0; c < 4; ++c) {
+                const std::uint32_t word = data(t + 1 + which, c);
+                float value = 0;
+                std::memcpy(&value, &word, 4);
+                sum += static_cast<double>(value) * std::pow(a, c);
+            }
+            return sum;
+        }
+        double sum = 0, weights = 0;
+        for (std::uint32_t k = 0; k < bits(data(t, 0), 2, 5); ++k) {
+            const double y = std::ldexp(a, static_cast<int>(k)) + 0.375 * k, i = std::floor(y), f = y - i;
+            const double from = lattice(data(t, 2), data(t, 3), k, static_cast<std::uint32_t>(i), which);
+            const double to = lattice(data(t, 2), data(t, 3), k, static_cast<std::uint32_t>(i) + 1, which);
+            sum += std::ldexp(from + (to - from) * f * f * (3 - 2 * f), -static_cast<int>(k));
+            weights += std::ldexp(1.0, -static_cast<int>(k));
+        }
+        return 1 + amplitude * sum / weights;
+    }
+
     void apply(const Element& e, Point p, std::uint32_t ground, double& add, double& cut,
                double& clearance) const {
         double b = 0, s = 0;
@@ -269,8 +324,12 @@ class SpecificationReader {
         double offset = b, near = std::fabs(b);
         const bool start = admit(e.ends[0], tangent(e, 0), p, b, offset, near);
         const bool end = admit(e.ends[1], tangent(e, 1), p, b, offset, near);
-        const double width = e.width[0] + (e.width[1] - e.width[0]) * s;
-        const double scale = e.height[0] + (e.height[1] - e.height[0]) * s;
+        double width = e.width[0] + (e.width[1] - e.width[0]) * s;
+        double scale = e.height[0] + (e.height[1] - e.height[0]) * s;
+        if (e.follows) {
+            width *= factor(e.function, argument(e, s), 0);
+            scale *= factor(e.function, argument(e, s), 1);
+        }
         const Style& style = e.style;
         const auto point = [this, &style](unsigned k, double& pb, double& ph) {
             const std::uint32_t w = data(style.profile + k / 4, k % 4);

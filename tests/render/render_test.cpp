@@ -107,6 +107,7 @@ TEST(RenderAsset, LightAndShadowAsTheDecoderSays) {
         RenderOptions options;
         options.width = options.height = 96;
         options.samples = 1;
+        options.antialiasing = Antialiasing::points;
         options.camera.orthographic = true;
         options.camera.azimuth = 0;
         options.camera.elevation = 90;
@@ -138,6 +139,84 @@ TEST(RenderAsset, LightAndShadowAsTheDecoderSays) {
             }
         EXPECT_GT(asked, 4000);
         EXPECT_LE(wrong, asked / 500) << "of " << asked << ", dark " << dark;
+    }
+}
+
+// Root mean square of the difference of two pictures, in steps of 8 bits.
+double difference(const RgbaImage& a, const RgbaImage& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.texels.size(); ++i) {
+        const double d = double(a.texels[i]) - double(b.texels[i]);
+        sum += d * d;
+    }
+    return std::sqrt(sum / double(a.texels.size()));
+}
+
+// Features as areas against so many rays that their own error is small.
+TEST(RenderAsset, RegionsAreTheMeanOfRays) {
+    for (const Pattern& pattern : {crossing_pattern(), plateau_pattern(), overhang_pattern()})
+        for (const double elevation : {90.0, 50.0, 15.0}) {
+            RenderOptions options;
+            options.width = options.height = 48;
+            options.camera.azimuth = 20;
+            options.camera.elevation = elevation;
+            options.camera.zoom = elevation > 20.0 ? 3.0 : 8.0;  // no border of the plane: that is the mesh's, not the pattern's
+            options.backend = backend();
+            options.samples = 1;
+            const Asset plane = plane_with(prepare(pattern));
+            const auto regions = render_asset(plane, options);
+            SKIP_WITHOUT_CONTEXT(regions);
+            options.antialiasing = Antialiasing::points;
+            options.samples = 36;
+            const auto rays = render_asset(plane, options);
+            options.samples = 1;
+            const auto single = render_asset(plane, options);
+            ASSERT_TRUE(regions.ok() && rays.ok() && single.ok());
+            const double error = difference(*regions, *rays);
+            EXPECT_LT(error, 1.3) << "elevation " << elevation;
+            EXPECT_LT(error, 0.6 * difference(*single, *rays)) << "elevation " << elevation;
+        }
+}
+
+// What an engine does in one run of the shader, and what suits a CPU.
+TEST(RenderAsset, OneRunDrawsTheSame) {
+    const Asset plane = plane_with(prepare(crossing_pattern()));
+    RenderOptions options;
+    options.width = options.height = 48;
+    options.samples = 1;
+    options.rays = 4;
+    options.backend = backend();
+    const auto runs = render_asset(plane, options);
+    SKIP_WITHOUT_CONTEXT(runs);
+    options.one_run = true;
+    const auto one = render_asset(plane, options);
+    ASSERT_TRUE(runs.ok() && one.ok());
+    for (std::size_t i = 0; i < runs->texels.size(); ++i) EXPECT_NEAR(runs->texels[i], one->texels[i], 1) << i;
+}
+
+// From where a cell is a few pixels to where a pixel is many cells.
+TEST(RenderAsset, MeanLightStaysFromFarAway) {
+    const PreparedPattern p = prepare(crossing_pattern());
+    const Asset plane = plane_with(p);
+    RenderOptions options;
+    options.camera.orthographic = true;
+    options.camera.elevation = 90;
+    options.camera.azimuth = 0;
+    options.camera.zoom = 1.03;  // the plane and nothing else
+    options.samples = 1;
+    options.backend = backend();
+    double first = 0.0;
+    for (const int side : {96, 24, 6, 3, 2, 1}) {
+        options.width = options.height = side;
+        const auto picture = render_asset(plane, options);
+        SKIP_WITHOUT_CONTEXT(picture);
+        ASSERT_TRUE(picture.ok()) << picture.error().message;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < picture->texels.size(); i += 4)
+            sum += std::pow((picture->texels[i] / 255.0 + 0.055) / 1.055, 2.4);
+        const double mean = sum / double(side * side);
+        if (first == 0.0) first = mean;
+        EXPECT_NEAR(mean / first, 1.0, 0.01) << side << " pixels";
     }
 }
 

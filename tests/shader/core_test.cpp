@@ -6,6 +6,7 @@
 
 #include <cpp/decode.hpp>
 
+#include "../property/perturbed.hpp"
 #include "../property/random_pattern.hpp"
 #include "patterns.hpp"
 #include "rays.hpp"
@@ -104,7 +105,8 @@ TEST_P(RandomCoreTest, DecoderAndShaderAgreeWithTruth) {
     const std::uint64_t seed = std::uint64_t(GetParam());
     RandomPatternOptions options;
     options.wrap = GetParam() % 4 == 3 ? Wrap::clamp : Wrap::repeat;
-    const PreparedPattern pattern = prepare(random_pattern(seed, options));
+    const bool perturbed = GetParam() >= 8;
+    const PreparedPattern pattern = prepare(perturbed ? perturbed_pattern(seed, options) : random_pattern(seed, options));
     ASSERT_FALSE(pattern.textures.data.empty());
     const std::vector<AimedRay> rays = aim_rays(pattern, ray_count(), seed);
     expect_agreement(judge(pattern, rays, decode_rays(pattern, rays)), "random " + std::to_string(seed));
@@ -114,7 +116,7 @@ TEST_P(RandomCoreTest, DecoderAndShaderAgreeWithTruth) {
         expect_agreement(judge(pattern, rays, hits), "random " + std::to_string(seed) + " as shader");
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoreTest, ::testing::Range(0, 8));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoreTest, ::testing::Range(0, 14));
 
 // Textures of noise: some answer within the relief, no access out of bounds, no endless loop.
 TEST(DecoderTest, AnswersOnDamagedTextures) {

@@ -4,6 +4,8 @@
 // Metres; tile 1 x 1 unless said, depth 0.02, base_offset 0.008 where something rises above the ground.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -252,6 +254,12 @@ inline Pattern clamped_pattern() {
     return p;
 }
 
+}  // namespace burin::testing
+
+#include "perturbed_patterns.hpp"
+
+namespace burin::testing {
+
 inline std::vector<NamedPattern> authored_patterns() {
     return {{"crossing", crossing_pattern()},
             {"tee", tee_pattern()},
@@ -266,7 +274,13 @@ inline std::vector<NamedPattern> authored_patterns() {
             {"floor", floor_pattern()},
             {"overhang", overhang_pattern()},
             {"scaled", scaled_pattern()},
-            {"clamped", clamped_pattern()}};
+            {"clamped", clamped_pattern()},
+            {"sine", sine_pattern()},
+            {"waved_curves", waved_curve_pattern()},
+            {"noise", noise_pattern()},
+            {"polynomial", polynomial_pattern()},
+            {"fine_waves", fine_waves_pattern()},
+            {"waved_junctions", waved_junctions_pattern()}};
 }
 
 }  // namespace burin::testing

@@ -153,7 +153,7 @@ PreparedPattern prepare(const Pattern& pattern, const GridOptions& options) {
     p.stored = stored->pattern;
     for (std::uint32_t texel = 0; texel < p.textures.sections.element_texels;) {
         p.element_texels.push_back(texel);
-        texel += element_has_texel_b(data_texel(p.textures, texel)) ? 2 : 1;
+        texel += element_texel_count(data_texel(p.textures, texel));
     }
     p.element_texels.resize(p.stored.elements.size());
     return p;

@@ -43,7 +43,9 @@ std::vector<ElementCode> sample_elements() {
         const std::size_t next = (i + 1) % 4;
         elements.push_back(line(corner[i], corner[next], mitre(bisector[i]), mitre(bisector[next]), 0));
     }
-    elements.back().has_texel_b = true;
+    elements.back().has_texel_b = elements.back().has_texel_c = true;
+    elements.back().argument1 = 98304;
+    elements.back().function = 1;
     elements.push_back(line(point(0.05, 0.2), point(0.3, 0.2), kHip, kJoint, 1));
     ElementCode curve = line(point(0.3, 0.2), point(0.44, 0.23), kJoint, kHip, 1);
     curve.quadratic = curve.has_texel_b = true;
@@ -54,7 +56,22 @@ std::vector<ElementCode> sample_elements() {
     scaled.width0 = 8192;
     elements.push_back(scaled);
     elements.push_back(line(point(0.1, 0.85), point(0.3, 0.85), kHip, kHip, 1));
+    elements.back().has_texel_c = true;
+    elements.back().argument0 = 65536, elements.back().argument1 = 3 * 65536;
     return elements;
+}
+
+std::vector<FunctionCode> sample_functions() {
+    FunctionCode noise, sine, polynomial;
+    noise.kind = BURIN_FUNCTION_NOISE;
+    noise.octaves = 3;
+    noise.seed = 77;
+    noise.period = 3;
+    noise.width = 3000, noise.height = -2000;
+    sine.width = 9000;
+    polynomial.kind = BURIN_FUNCTION_POLYNOMIAL;
+    polynomial.coefficients = {0.5f, 1.0f, -0.5f, 0.25f, 1.0f, 0.0f, 0.5f, -1.0f};
+    return {noise, sine, polynomial, sine};
 }
 
 std::vector<StyleCode> sample_styles() {
@@ -85,7 +102,7 @@ struct Listed {
 
 constexpr std::uint32_t kIsolated = BURIN_CELL_FLAG_ISOLATED, kStep = BURIN_CELL_FLAG_STEP;
 // References: the cells of the square find their pairs in the runs 0 1 2 3 and 0 3.
-constexpr std::array<std::uint32_t, 10> kReferences = {0, 1, 2, 3, 0, 3, 5, 6, 8, 10};
+constexpr std::array<std::uint32_t, 10> kReferences = {0, 1, 2, 3, 0, 3, 6, 7, 9, 11};
 constexpr std::array<Listed, 14> kListed = {{{5, 5, 4, 2, kStep, kSunken, 127},
                                              {6, 5, 0, 2, kStep, kSunken, 127},
                                              {6, 6, 1, 2, kStep, kSunken, 127},
@@ -134,10 +151,10 @@ SampleFile make_sample_file() {
     PackedTextures& t = file.textures;
     fill_grid(t);
     for (const ElementCode& element : sample_elements()) {
-        const std::array<Texel, 2> texels = pack_element(element);
-        for (std::size_t k = 0; k < (element.has_texel_b ? 2u : 1u); ++k) {
-            t.data.insert(t.data.end(), texels[k].begin(), texels[k].end());
-        }
+        const std::array<Texel, 3> texels = pack_element(element);
+        t.data.insert(t.data.end(), texels[0].begin(), texels[0].end());
+        if (element.has_texel_b) t.data.insert(t.data.end(), texels[1].begin(), texels[1].end());
+        if (element.has_texel_c) t.data.insert(t.data.end(), texels[2].begin(), texels[2].end());
     }
     t.sections.element_texels = static_cast<std::uint32_t>(t.data.size() / 4);
     for (const StyleCode& style : sample_styles()) {
@@ -159,9 +176,16 @@ SampleFile make_sample_file() {
     }
     t.sections.material_texels = 2;
     t.sections.list_texels = 2;
-    t.data_width = 7;
-    t.data_height = 3;
-    t.data.resize(4 * 21, 0);
+    t.data.resize(4 * std::size_t{t.sections.functions_begin()}, 0);
+    for (const FunctionCode& function : sample_functions()) {
+        const std::array<Texel, 3> texels = pack_function(function);
+        for (std::uint32_t k = 0; k < function_texel_count(texels[0]); ++k)
+            t.data.insert(t.data.end(), texels[k].begin(), texels[k].end());
+    }
+    t.sections.function_texels = 6;
+    t.data_width = 6;
+    t.data_height = 5;
+    t.data.resize(4 * 30, 0);
     for (std::uint32_t k = 0; k < kReferences.size(); ++k) set_reference(t, k, kReferences[k]);
     file.detail.grid_width = t.grid_width;
     file.detail.grid_height = t.grid_height;
@@ -189,13 +213,14 @@ void set_data(PackedTextures& t, std::uint32_t index, const Texel& texel) {
 }
 
 ElementCode get_element(const PackedTextures& t, std::uint32_t texel) {
-    return unpack_element(data_texel(t, texel), data_texel(t, texel + 1));
+    return element_at(t, texel);
 }
 
 void set_element(PackedTextures& t, std::uint32_t texel, const ElementCode& element) {
-    const std::array<Texel, 2> texels = pack_element(element);
+    const std::array<Texel, 3> texels = pack_element(element);
     set_data(t, texel, texels[0]);
     if (element.has_texel_b) set_data(t, texel + 1, texels[1]);
+    if (element.has_texel_c) set_data(t, texel + element_texel_count(texels[0]) - 1, texels[2]);
 }
 
 StyleCode get_style(const PackedTextures& t, std::uint32_t index) {

@@ -2,10 +2,11 @@
 // pack.
 //
 // 8 x 8 cells, repeating, 1 m by 1 m. Elements by their texel:
-//   0, 1, 2, 3+4  a sunken square of four step lines with mitred corners (the last one carries a texel B)
-//   5, 6+7        a line that goes over into a quadratic, one groove
-//   8+9           a line with width scale, of material 1
-//   10            a line
+//   0, 1, 2, 3+4+5  a sunken square of four step lines with mitred corners (the last one carries texels B and C)
+//   6, 7+8          a line that goes over into a quadratic, one groove
+//   9+10            a line with width scale, of material 1
+//   11+12           a line with noise
+// Functions by their texel: 0 noise, 1 sine of widths alone, 2 to 4 a polynomial, 5 sine; nobody refers to the last two.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ SampleFile make_sample_file();
 void set_cell(PackedTextures& textures, int i, int j, const CellCode& cell);
 CellCode get_cell(const PackedTextures& textures, int i, int j);
 void set_data(PackedTextures& textures, std::uint32_t index, const Texel& texel);
-// Element at `texel` (with its texel B).
+// Element at `texel` (with its texels B and C).
 ElementCode get_element(const PackedTextures& textures, std::uint32_t texel);
 void set_element(PackedTextures& textures, std::uint32_t texel, const ElementCode& element);
 StyleCode get_style(const PackedTextures& textures, std::uint32_t index);

@@ -69,7 +69,10 @@ TEST(Specification, LimitsAreThoseOfTheLayout) {
                   {"BURIN_MAX_STYLES", BURIN_MAX_STYLES},
                   {"BURIN_MAX_PROFILE_TEXELS", BURIN_MAX_PROFILE_TEXELS},
                   {"BURIN_MAX_MATERIALS", BURIN_MAX_MATERIALS},
-                  {"BURIN_MAX_LIST_TEXELS", BURIN_MAX_LIST_TEXELS}};
+                  {"BURIN_MAX_LIST_TEXELS", BURIN_MAX_LIST_TEXELS},
+                  {"BURIN_MAX_FUNCTION_TEXELS", BURIN_MAX_FUNCTION_TEXELS},
+                  {"BURIN_MAX_OCTAVES", BURIN_MAX_OCTAVES},
+                  {"BURIN_MAX_NOISE_PERIOD", BURIN_MAX_NOISE_PERIOD}};
     for (const auto& limit : limits) {
         const std::string row = "| " + std::to_string(limit.value) + " | `" + limit.name + "` |";
         EXPECT_NE(text.find(row), std::string::npos) << row;
@@ -103,7 +106,8 @@ TEST(Specification, SchemasRequireWhatTheReaderRequires) {
     PathDetail detail;
     detail.grid_view = detail.data_view = 0;
     detail.grid_width = detail.grid_height = detail.data_width = detail.data_height = 1;
-    detail.sections.material_texels = 1;
+    detail.data_width = 2;
+    detail.sections.material_texels = detail.sections.function_texels = 1;
     detail.residual_texture = 0;
     const nlohmann::json extension = nlohmann::json::parse(write_extension(detail));
     expect_required(extension, "", schema(""));
@@ -118,6 +122,7 @@ TEST(Specification, SchemasRequireWhatTheReaderRequires) {
     EXPECT_EQ(limit("profiles"), BURIN_MAX_PROFILE_TEXELS);
     EXPECT_EQ(limit("materials"), BURIN_MAX_MATERIALS);
     EXPECT_EQ(limit("lists"), BURIN_MAX_LIST_TEXELS);
+    EXPECT_EQ(limit("functions"), BURIN_MAX_FUNCTION_TEXELS);
     EXPECT_EQ(limit("width"), BURIN_MAX_TEXTURE_SIDE);
 }
 

@@ -314,6 +314,33 @@ TEST(Svg, ShowsOnThePageWhatLiesBesideIt) {
     expect_equal(pattern, read_pattern(root));
 }
 
+TEST(Svg, PerturbationsAreNamedWithTheirNumbers) {
+    Pattern pattern;
+    pattern.profiles = {{{{-0.01, 0}, {0, -0.003}, {0.01, 0}}, {}}};
+    Perturbation sine, noise, cubic;
+    sine.width = 0.25, sine.height = -0.5, sine.wavelength = 0.125, sine.phase = 0.75;
+    noise = sine;
+    noise.kind = PerturbationKind::noise;
+    noise.seed = 4294967295u, noise.octaves = 3;
+    cubic.kind = PerturbationKind::polynomial;
+    cubic.width_polynomial[1] = 0.5, cubic.height_polynomial[3] = -0.25;
+    pattern.perturbations = {sine, noise, cubic};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        Path path;
+        path.elements.resize(1);
+        path.elements[0].p2 = {0.5, 0.25 * i};
+        if (i < 3) path.perturbation = i;
+        pattern.paths.push_back(path);
+    }
+    pugi::xml_document document;
+    const auto paths = numbered(parse(pattern, document), "path");
+    ASSERT_EQ(paths.size(), 4u);
+    EXPECT_EQ(attribute(paths[0], "perturbation", ""), "sine 0.25 -0.5 0.125 0.75");
+    EXPECT_EQ(attribute(paths[1], "perturbation", ""), "noise 0.25 -0.5 0.125 4294967295 3");
+    EXPECT_EQ(attribute(paths[2], "perturbation", ""), "polynomial 1 0.5 0 0 1 0 0 -0.25");
+    EXPECT_EQ(attribute(paths[3], "perturbation", "none"), "none");
+}
+
 TEST(Svg, AnEmptyPatternIsADrawing) {
     pugi::xml_document document;
     expect_equal(Pattern{}, read_pattern(parse(Pattern{}, document)));

@@ -44,14 +44,18 @@ TEST_F(Texels, CellsSurviveAllBits) {
 TEST_F(Texels, ElementsSurviveAllBits) {
     SCOPED_TRACE("seed " + std::to_string(seed_));
     for (int k = 0; k < 20000; ++k) {
-        Texel a{}, b{};
+        Texel a{}, b{}, c{};
         for (std::uint32_t& word : a) word = static_cast<std::uint32_t>(random_());
         for (std::uint32_t& word : b) word = static_cast<std::uint32_t>(random_());
+        for (std::uint32_t& word : c) word = static_cast<std::uint32_t>(random_());
+        c[2] &= 0xFFFFu, c[3] = 0;
         if ((a[2] & 1u << 28) != 0) a[2] |= 1u << 29;
         if (!element_has_texel_b(a)) b = {};
-        const std::array<Texel, 2> packed = pack_element(unpack_element(a, b));
+        if (!element_has_texel_c(a)) c = {};
+        const std::array<Texel, 3> packed = pack_element(unpack_element(a, b, c));
         ASSERT_EQ(packed[0], a);
         ASSERT_EQ(packed[1], b);
+        ASSERT_EQ(packed[2], c);
     }
 }
 
@@ -65,10 +69,21 @@ TEST_F(Texels, FieldsLieWhereTheLayoutSays) {
     e.quadratic = e.has_texel_b = true;
     e.style = 9;
     e.width0 = 10, e.width1 = 11, e.height0 = 12, e.height1 = 13;
-    const std::array<Texel, 2> t = pack_element(e);
+    e.has_texel_c = true;
+    e.argument0 = 14, e.argument1 = 15, e.function = 16;
+    const std::array<Texel, 3> t = pack_element(e);
     EXPECT_EQ(t[0],
-              (Texel{1u | 7u << 20, 2u | 8u << 20, 5u | 9u << 20 | 3u << 24 | 3u << 28, 6u | 9u << 20}));
+              (Texel{1u | 7u << 20, 2u | 8u << 20, 5u | 9u << 20 | 3u << 24 | 7u << 28, 6u | 9u << 20}));
     EXPECT_EQ(t[1], (Texel{3u, 4u, 10u | 11u << 16, 12u | 13u << 16}));
+    EXPECT_EQ(t[2], (Texel{14u, 15u, 16u, 0u}));
+    FunctionCode f;
+    f.kind = BURIN_FUNCTION_NOISE, f.octaves = 5, f.width = -1, f.height = 2, f.seed = 3, f.period = 4;
+    EXPECT_EQ(pack_function(f)[0], (Texel{2u | 5u << 2, 0x0002FFFFu, 3u, 4u}));
+    EXPECT_EQ(unpack_function(pack_function(f)), f);
+    FunctionCode p;
+    p.kind = BURIN_FUNCTION_POLYNOMIAL, p.coefficients = {1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f, 8.0f};
+    EXPECT_EQ(pack_function(p)[1], (Texel{0x3F800000u, 0x40000000u, 0x40400000u, 0x40800000u}));
+    EXPECT_EQ(unpack_function(pack_function(p)), p);
     const StyleCode s{1, 2, true, 3, 4, 5, 1.0f, 6};
     EXPECT_EQ(pack_style(s), (Texel{1u | 2u << 16 | 1u << 22 | 3u << 23, 4u | 5u << 16, 0x3F800000u, 6u}));
     EXPECT_EQ(pack_cell({1, 2, 3, 2, 4, 5, 6}),

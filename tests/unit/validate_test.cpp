@@ -101,8 +101,8 @@ Bytes broken_data(std::uint32_t texel, std::size_t word, std::uint32_t value) {
     return broken_textures([=](PackedTextures& t) { t.data[4 * std::size_t{texel} + word] = value; });
 }
 
-constexpr std::uint32_t kScaledLine = 8, kLastLine = 10, kStepWithB = 3, kPaintedStyle = 2, kMaterials = 16,
-                        kTail = 20;
+constexpr std::uint32_t kScaledLine = 9, kLastLine = 11, kStepWithB = 3, kPaintedStyle = 2, kMaterials = 18,
+                        kFunctions = 22, kPolynomial = 24, kLastFunction = 27, kTail = 28;
 
 void add_container_cases(std::map<int, Bytes>& cases) {
     cases[1001] = {'g', 'l', 'T', 'F', 2, 0, 0, 0};
@@ -218,6 +218,9 @@ void add_element_cases(std::map<int, Bytes>& cases) {
     cases[4009] = broken_element(kLastLine, [](ElementCode& e) { e.p2.u = e.p0.u + 524289; });
     cases[4010] = broken_element(kStepWithB, [](ElementCode& e) { e.height1 = 16000; });
     cases[4011] = broken_element(kStepWithB, [](ElementCode& e) { e.height0 = e.height1 = 16000; });
+    cases[4012] = broken_element(kLastLine, [](ElementCode& e) { e.function = 3; });
+    cases[4013] = broken_element(kLastLine, [](ElementCode& e) { e.argument0 = e.argument1 + 1; });
+    cases[4014] = broken_element(kStepWithB, [](ElementCode& e) { e.function = 0; });
 }
 
 void add_data_cases(std::map<int, Bytes>& cases) {
@@ -239,13 +242,17 @@ void add_data_cases(std::map<int, Bytes>& cases) {
     cases[4035] = broken_profile(7, 1, 0);
     cases[4040] = broken_data(kMaterials, 1, 1u << 16);
     cases[4041] = broken_data(kMaterials + 1, 3, 1);
-    cases[4050] = broken_textures([](PackedTextures& t) { test::set_reference(t, 8, 9); });
+    cases[4050] = broken_textures([](PackedTextures& t) { test::set_reference(t, 8, 10); });
     cases[4051] = broken_textures([](PackedTextures& t) {
         test::set_reference(t, 4, 3);
         test::set_reference(t, 5, 0);
     });
     cases[4052] = broken_textures([](PackedTextures& t) { test::set_reference(t, 12, 1); });
     cases[4053] = broken_data(kTail, 2, 1);
+    cases[4060] = broken_data(kLastFunction, 0, 3);
+    cases[4061] = broken_data(kLastFunction, 2, 1);
+    cases[4062] = broken_data(kLastFunction, 1, 0x8000u);
+    cases[4063] = broken_data(kPolynomial + 1, 0, 0x40800000u);
 }
 
 std::map<int, Bytes> all_cases() {
@@ -293,6 +300,25 @@ TEST(Validate, EveryNumberHasAFileThatBreaksOnlyIt) {
             << text_of(cases.at(kind.number));
     }
     EXPECT_EQ(cases.size() + 1, issue_kinds().size());
+}
+
+// The other ways to break what a case of 4001, 4002, 4013 or 4060 to 4063 breaks.
+TEST(Validate, FunctionsAreCheckedPartByPart) {
+    const auto texel = [](std::uint32_t at, std::size_t word, std::uint32_t value) {
+        return numbers_of(broken_data(at, word, value));
+    };
+    EXPECT_EQ(texel(kLastLine + 1, 1, 3 * 65536 + 1), std::set<int>{4013});  // past the period
+    EXPECT_EQ(texel(kLastLine + 1, 2, 1u << 16), std::set<int>{4002});
+    EXPECT_EQ(texel(kLastLine + 1, 3, 1), std::set<int>{4002});
+    EXPECT_EQ(texel(kLastFunction, 0, 1), std::set<int>{4060});              // a polynomial of one texel
+    EXPECT_EQ(texel(kFunctions, 0, 2), std::set<int>{4062});                 // noise of no octave
+    EXPECT_EQ(texel(kFunctions, 0, 2u | 9u << 2), std::set<int>{4062});      // or of nine
+    EXPECT_EQ(texel(kFunctions, 3, 65537), std::set<int>{4062});
+    EXPECT_EQ(texel(kPolynomial, 1, 1), std::set<int>{4061});                // an amplitude that nothing uses
+    EXPECT_EQ(texel(kPolynomial + 2, 0, 0x7FC00000u), std::set<int>{4063});  // NaN
+    EXPECT_EQ(texel(kPolynomial + 2, 3, 0xC0000000u), std::set<int>{4063});  // below 0 at the end
+    EXPECT_EQ(numbers_of(broken_extension([](json& e) { e["data"].erase("functions"); })), std::set<int>({4012, 4053}));
+    EXPECT_EQ(numbers_of(broken_extension([](json& e) { e["data"]["functions"] = 65537; })), std::set<int>{2015});
 }
 
 TEST(Validate, SeverityIsThatOfTheKind) {

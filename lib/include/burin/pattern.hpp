@@ -8,7 +8,7 @@
 //
 // Words are those of DESIGN: an element is one line or quadratic; a path is a chain of elements; offset b is the
 // signed distance along n = (-t.y, t.x); left is b < 0, right is b > 0; a facet is one segment of a profile.
-// Source: [2010] 4.1, 4.2; perturbation [2010] 5.5.
+// Source: [2010] 4.1, 4.2; perturbation [2010] 5.5, [2008] 3.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace burin {
 enum class ElementKind : std::uint8_t { line, quadratic };
 
 // One line or quadratic Bézier. Width and height scale run linearly in the curve parameter between the ends and
-// multiply the profile's b and h. Range of each scale: [0, 4).
+// multiply the profile's b and h, together with the path's perturbation. Range of each product: [0, 4).
 struct Element {
     ElementKind kind = ElementKind::line;
     Vec2 p0;  // start
@@ -29,6 +29,8 @@ struct Element {
     Vec2 p2;  // end
     double width0 = 1.0, width1 = 1.0;
     double height0 = 1.0, height1 = 1.0;
+    // Argument of the path's perturbation at both ends. Of no meaning in a Pattern: resolve_pattern measures it.
+    double argument0 = 0.0, argument1 = 0.0;
 };
 
 struct ProfilePoint {
@@ -55,6 +57,27 @@ struct Material {
     float roughness = 1.0f;              // [0, 1]
 };
 
+// What multiplies the linear scales of a path as a function of x, the path's own arc length: metres from its start,
+// on through smooth joints, corners and wherever the path is split. One for any number of paths. [2008] 3.
+//   sine        1 + amplitude sin(2 pi (x / wavelength + phase))
+//   polynomial  c[0] + c[1] u + c[2] u^2 + c[3] u^3, u = x / length of the path, in [0, 1]
+//   noise       1 + amplitude n(x / wavelength), n in [-1, 1]: smooth noise of its own for width and for height, a sum of
+//               octaves of half the wavelength and half the amplitude each (format/SPECIFICATION.md has the formula)
+// On a closed path sine and noise close: the wavelength is rounded so that a whole number of them, one at least, fits; a
+// polynomial must have the same value at 0 and 1. The height of a step path may not be perturbed.
+enum class PerturbationKind : std::uint8_t { sine, polynomial, noise };
+struct Perturbation {
+    PerturbationKind kind = PerturbationKind::sine;
+    double width = 0.0, height = 0.0;  // amplitudes of sine and noise, [-1, 1]
+    double wavelength = 0.01;          // metres, > 0; sine and noise
+    double phase = 0.0;                // sine, in wavelengths
+    std::uint32_t seed = 0;            // noise
+    int octaves = 1;                   // noise, [1, 8]
+    double width_polynomial[4] = {1, 0, 0, 0};  // values in [0, 4) over all of [0, 1]
+    double height_polynomial[4] = {1, 0, 0, 0};
+};
+inline constexpr std::uint32_t kNoPerturbation = 0xffffffffu;
+
 enum class JoinKind : std::uint8_t { mitre, round, bevel };           // mitre limit 4 as in SVG, bevel beyond
 enum class CapKind : std::uint8_t { hip, butt, round, taper };        // isolated ends only; hip is the default
 
@@ -70,6 +93,7 @@ struct Path {
     JoinKind join = JoinKind::mitre;
     CapKind start_cap = CapKind::hip;
     CapKind end_cap = CapKind::hip;
+    std::uint32_t perturbation = kNoPerturbation;  // index into Pattern::perturbations
 };
 
 enum class Wrap : std::uint8_t { repeat, clamp };
@@ -83,6 +107,7 @@ struct Pattern {
     std::vector<Profile> profiles;
     std::vector<Material> materials{Material{}};
     std::vector<Path> paths;
+    std::vector<Perturbation> perturbations;
 };
 
 // What a path is, by the profile it carries: a step's ends lie at different heights (by more than depth / 4096, as

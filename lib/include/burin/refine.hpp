@@ -63,6 +63,7 @@ struct RefineReport {
 // Ensures: the pattern never fits the map worse than before, in the robust measure over the texels that are asked (else it
 // is returned as it came); equal bytes for any number of threads. Heights stay within [lowest, highest]. Paths that a
 // lenient `resolve_pattern` drops stay where they are; so does a path that a step would make it drop.
+// The fit knows linear scales alone: a pattern with a perturbed path is returned as it came, its report empty.
 // Fails with invalid_argument on options out of range or an empty map, and with invalid_input, naming the path, on
 // profile indices out of range and on numbers that are not finite; the pattern is then unchanged.
 // Where a map does not bend, one texel in four or sixteen speaks for its neighbours.

@@ -29,6 +29,14 @@
 // without gap. With height h = level + height_scale * profile(b' / width_scale):
 //   solid = (ground U all add) \ all cut,   H(p) = min( max(ground, add heights), cut heights )
 //   add: the part above the ground of that side;   cut: where b' lies in an internal facet, all above h (the wedge).
+// ALONG THE PATH. Width and height scale at the foot are the linear ones of the element times the two factors of its
+// function, where it has one, at the argument a there. a counts wavelengths (sine, noise) or is the share of the path's
+// length (polynomial). resolve measures arc lengths and gives a at both ends of each element, in [0, 65536) and never
+// falling; between them, with s the curve parameter,
+//   line       a(s) = a0 + (a1 - a0) s
+//   quadratic  a(s) = a0 + (a1 - a0) L(s) / L(1),  L the integral of the speed from 0 to s by Gauss's rule of three points:
+//              the arc length to within 0.25 % of the element's, for turns up to 90 degrees
+// and beyond the ends it stays. This is the definition, for truth and shaders alike.
 #pragma once
 
 #include <array>
@@ -51,11 +59,27 @@ struct ElementEnd {
     double clip_angle = 0.0;  // radians in [0, pi); 0 where unused
 };
 
+// A perturbation as elements refer to it: the factors as functions of the argument a.
+//   sine 1 + amplitude sin(2 pi a) · polynomial c[0] + c[1] a + c[2] a^2 + c[3] a^3 · noise 1 + amplitude n(a)
+struct ScaleFunction {
+    PerturbationKind kind = PerturbationKind::sine;
+    double width = 0.0, height = 0.0;  // amplitudes
+    std::uint32_t seed = 0;
+    std::uint32_t octaves = 1;
+    std::uint32_t period = 0;  // noise: it repeats after so many wavelengths; 0: never
+    double width_polynomial[4] = {1, 0, 0, 0};
+    double height_polynomial[4] = {1, 0, 0, 0};
+
+    bool operator==(const ScaleFunction&) const = default;
+};
+inline constexpr std::uint32_t kNoFunction = 0xffffffffu;
+
 struct ResolvedElement {
     Element element;
     ElementEnd start, end;
     std::uint32_t style = 0;
     std::uint32_t path = 0;  // which Pattern path it came from: neighbours of one path follow each other
+    std::uint32_t function = kNoFunction;  // index into ResolvedPattern::functions
 };
 
 // Profile with classified facets, at the level of one region. Equal styles are stored once.
@@ -108,6 +132,7 @@ struct ResolvedPattern {
     std::vector<Style> styles;
     std::vector<ResolvedProfile> profiles;
     std::vector<Material> materials;
+    std::vector<ScaleFunction> functions;
     std::vector<Junction> junctions;
     ResolveStats stats;
 };
@@ -129,7 +154,7 @@ struct ResolveOptions {
 // leave [-0.5, 1.5) of the tile are split; a quadratic turns by at most 90 degrees; every end has its priority; output
 // depends on the input alone. An open end on the border of a clamped map runs to it; a step path may end there.
 // Fails with invalid_input, naming path and position: a path that does not connect, an index out of range, a profile
-// with wrong order or point count, step paths that cross each other, a step path that ends nowhere, a profile that
+// with wrong order or point count, a perturbation out of range or one that makes a scale leave [0, 4), step paths that cross each other, a step path that ends nowhere, a profile that
 // a vertical ray meets again above an internal facet and that has no explicit flags, a value that is not finite.
 // Cost: about n log n in elements, plus crossings.
 Result<ResolvedPattern> resolve_pattern(const Pattern& pattern, const ResolveOptions& options = {});

@@ -47,7 +47,7 @@ struct PathDetail {
 std::string write_extension(const PathDetail& detail);
 
 // Reads the extension object (the value, without its name). Unknown properties are passed over, as glTF asks;
-// `wrap`, `texCoord`, `baseOffset` and `outerLevel` have defaults ("repeat", 0, 0, 0), `residualTexture` may
+// `wrap`, `texCoord`, `baseOffset` and `outerLevel` have defaults ("repeat", 0, 0, 0), `residualTexture` and `data.functions` may
 // be absent, the others are required. Fails with invalid_input, naming property and value: not JSON, a property missing, of wrong type
 // or out of its range (the ranges above and layout.h's limits), sections that do not fit into the data
 // texture; unsupported: another version.

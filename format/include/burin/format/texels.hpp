@@ -23,12 +23,14 @@ struct Sections {
     std::uint32_t profile_texels = 0;
     std::uint32_t material_texels = 0;
     std::uint32_t list_texels = 0;
+    std::uint32_t function_texels = 0;
 
     std::uint32_t styles_begin() const { return element_texels; }
     std::uint32_t profiles_begin() const { return styles_begin() + style_texels; }
     std::uint32_t materials_begin() const { return profiles_begin() + profile_texels; }
     std::uint32_t lists_begin() const { return materials_begin() + material_texels; }
-    std::uint32_t end() const { return lists_begin() + list_texels; }
+    std::uint32_t functions_begin() const { return lists_begin() + list_texels; }
+    std::uint32_t end() const { return functions_begin() + function_texels; }
 };
 
 // Both textures as integer words, ready for upload as RG32UI and RGBA32UI. Row-major; texel i of a texture of
@@ -81,6 +83,10 @@ struct ElementCode {
     std::uint32_t unused = 0;  // the bits that have no meaning, gathered: not 0 only in a damaged file
     std::uint32_t style = 0;   // [0, 4096)
     std::uint32_t width0 = 16384, width1 = 16384, height0 = 16384, height1 = 16384;  // 16384 is 1
+    bool has_texel_c = false;
+    std::uint32_t argument0 = 0, argument1 = 0;  // 65536 is 1
+    std::uint32_t function = 0;                  // [0, 65536), from the start of the function section
+    bool unused_c = false;                       // as `unused`, of texel C
 
     bool operator==(const ElementCode&) const = default;
 };
@@ -113,18 +119,32 @@ struct MaterialCode {
     bool operator==(const MaterialCode&) const = default;
 };
 
+struct FunctionCode {
+    std::uint32_t kind = 0;             // BURIN_FUNCTION_*; 3 only in a damaged file
+    std::uint32_t octaves = 0;          // [1, 8] for noise
+    std::int32_t width = 0, height = 0;  // amplitudes, SNORM16
+    std::uint32_t seed = 0, period = 0;
+    std::array<float, 8> coefficients{};  // of a polynomial: c0 to c3 of width, then of height
+    std::uint32_t unused = 0;             // as in ElementCode, bits 6 to 31 of x
+
+    bool operator==(const FunctionCode&) const = default;
+};
+
 // ---- words <-> codes. Requires (asserted) of every pack function: members within the ranges above
 // -----------------
 
 CellTexel pack_cell(const CellCode& cell);
 CellCode unpack_cell(const CellTexel& texel);
 
-// Number of texels: 2 when `has_texel_b`, else 1; the second is all zero then.
-std::array<Texel, 2> pack_element(const ElementCode& element);
-// `b` is not looked at unless texel A says that there is one.
-ElementCode unpack_element(const Texel& a, const Texel& b);
-// Whether texel A announces a texel B; reads nothing else.
+// Texels A, B and C; those that there are not are all zero.
+std::array<Texel, 3> pack_element(const ElementCode& element);
+// `b` and `c` are not looked at unless texel A says that there is one.
+ElementCode unpack_element(const Texel& a, const Texel& b, const Texel& c = {});
+// Whether texel A announces a texel B or a texel C; reads nothing else.
 bool element_has_texel_b(const Texel& a);
+bool element_has_texel_c(const Texel& a);
+// Texels that the element takes, by texel A: 1 to 3.
+std::uint32_t element_texel_count(const Texel& a);
 
 Texel pack_style(const StyleCode& style);
 StyleCode unpack_style(const Texel& texel);
@@ -135,6 +155,11 @@ ProfilePointCode unpack_profile_point(std::uint32_t word);
 Texel pack_material(const MaterialCode& material);
 MaterialCode unpack_material(const Texel& texel);
 
+// Texels that a function takes, by its head texel: 3 for a polynomial, else 1; the others are all zero.
+std::array<Texel, 3> pack_function(const FunctionCode& function);
+FunctionCode unpack_function(const std::array<Texel, 3>& texels);
+std::uint32_t function_texel_count(const Texel& head);
+
 // ---- texture access. Requires: index within the texture
 // ---------------------------------------------------------
 
@@ -142,6 +167,10 @@ CellTexel cell_texel(const PackedTextures& textures, std::uint32_t index);
 Texel data_texel(const PackedTextures& textures, std::uint32_t index);
 // Reference `index` of the list section: an element's texel, counted from the start of the element section.
 std::uint32_t list_reference(const PackedTextures& textures, std::uint32_t index);
+// The element at a texel of the data texture, the function at one of the function section.
+// Requires: all of its texels within the texture.
+ElementCode element_at(const PackedTextures& textures, std::uint32_t texel);
+FunctionCode function_at(const PackedTextures& textures, std::uint32_t texel);
 
 // ---- codes <-> values. An encoder returns false, and leaves `code` alone, where the value is out of range
 // or not finite; nothing is clamped.
@@ -161,6 +190,10 @@ double decode_clip_angle(std::uint32_t code);
 // Width or height scale, [0, 4) less half a step. Worst error 2^-15. 0, 1, 2 and 3 are exact.
 bool encode_scale(double scale, std::uint32_t& code);
 double decode_scale(std::uint32_t code);
+
+// Argument of a function, [0, 65536) less half a step. Worst error 2^-17. Whole numbers are exact.
+bool encode_argument(double argument, std::uint32_t& code);
+double decode_argument(std::uint32_t code);
 
 // Value in [0, 1]. Worst error 1 / 131070 and 1 / 510. 0 and 1 are exact.
 bool encode_unorm16(double value, std::uint32_t& code);

@@ -1,0 +1,214 @@
+// The pixel as a whole: [2010] 5.7. Every element that shows in it is cut to the stretch that can, and added as stripes;
+// what is left is ground. Where two features lie over each other, and at ends that are no joints, the places of the pixel
+// are named instead, for the caller to ask ray by ray.
+
+// Radians that a path may turn while a ray falls through its profile.
+#define BURIN_MOST_BEND 0.35f
+// Part of the pixel that may be drawn as if the features in it did not know of each other.
+#define BURIN_LEAST_AREA 0.03f
+#define BURIN_MAX_REGION_CELLS 64
+#define BURIN_MAX_REGION_ELEMENTS 64
+
+// A feature's part in one question.
+struct BurinReachOf {
+    float across;   // metres beside the path, at the ground, within which it can show in the pixel
+    float along;    // metres along the path by which what shows can lie off the pixel's centre
+    float spread;   // metres by which the ray moves between the ground and the highest or lowest facet
+};
+
+// Whether stripes describe the end: joints, corners with a mitre, and ends on another path's line.
+bool burin_end_is_plain(BurinEnd end) {
+    if (end.priority == BURIN_PRIORITY_BOTH) return end.shape == BURIN_END_CLIP;
+    return end.priority != BURIN_PRIORITY_NONE && end.shape == BURIN_CORNER_MITRE;
+}
+
+// Metres along the path per metre of offset at which the end's clip line lies.
+float burin_end_lean(BurinEnd end, vec2 tangent) {
+    if (!burin_end_is_plain(end)) return 0.0f;
+    float across = burin_cross(end.clip, tangent);
+    return abs(across) < 0.02f ? 0.0f : -burin_cross(end.clip, end.normal) / across;
+}
+
+// Whether the path goes on beyond the end as if there were none.
+bool burin_end_is_smooth(BurinEnd end, float lean) {
+    return end.priority == BURIN_PRIORITY_BOTH && end.shape == BURIN_END_CLIP && abs(lean) < 0.03f;
+}
+
+// Places around an end that stripes do not describe: caps and joins; and, where another feature begins there, what ray
+// and light reach past the end though the profile alone would keep them off. `way` and `light_way`: metres that they move
+// over the plane within the profile.
+uint burin_end_mask(BurinEnd end, BurinFootprint footprint, vec2 place, float reach, float lean, vec2 way, vec2 light_way) {
+    if (burin_end_is_smooth(end, lean)) return 0u;
+    bool plain = burin_end_is_plain(end);
+    float seen = dot(way, end.inward);
+    float lit = dot(light_way, end.inward);
+    float tip = plain ? abs(lean) * reach : (end.priority == BURIN_PRIORITY_NONE ? 0.0f : reach);
+    float back = max(max(seen, lit), 0.0f) + abs(seen) + (plain ? tip : 0.0f) + 1.0e-3f * reach;
+    float ahead = abs(seen) + tip + 1.0e-3f * reach;
+    vec2 side = end.normal * (reach + abs(dot(way, end.normal)));
+    vec2 a = end.vertex - place + end.inward * back;
+    vec2 b = end.vertex - place - end.inward * ahead;
+    vec2 p = burin_to_pixel(footprint, a - side);
+    vec2 q = burin_to_pixel(footprint, a + side);
+    vec2 r = burin_to_pixel(footprint, b + side);
+    vec2 s = burin_to_pixel(footprint, b - side);
+    if (burin_quad_area(p, q, r, s) < BURIN_LEAST_AREA) return 0u;
+    return burin_quad_mask(p, q, r, s);
+}
+
+// Where the element can show in the pixel; limits are empty where it cannot. `tips`: metres that its ends may reach on.
+BurinStretch burin_stretch_of(BurinElement e, vec2 place, BurinReachOf reach, vec2 tips) {
+    BurinStretch stretch;
+    stretch.lean = vec2(0.0f, 0.0f);
+    stretch.limits = vec2(1.0f, 0.0f);
+    float offset = 0.0f;
+    if (e.curved) {
+        BurinFoot foot = burin_curve_foot(e, place);
+        offset = foot.offset;
+        stretch.middle = foot.parameter;
+    } else {
+        offset = dot(place - e.p0, burin_normal_of(e.t0));
+        stretch.middle = dot(place - e.p0, e.t0) / max(e.extent, 1.0e-20f);
+    }
+    vec2 rate = burin_path_rate(e, stretch.middle);
+    stretch.normal = burin_normal_of(burin_direction(rate, e.t0));
+    stretch.scales = burin_scales_at(e, stretch.middle);
+    if (abs(offset) > reach.across) return stretch;
+    if (dot(place - e.p0, e.t0) < -reach.along - tips.x && stretch.middle <= 0.5f) return stretch;
+    if (dot(place - e.p2, e.t2) > reach.along + tips.y && stretch.middle >= 0.5f) return stretch;
+    float room = (reach.along + max(tips.x, tips.y)) / length(rate);
+    stretch.limits = clamp(vec2(stretch.middle - 2.0f * room, stretch.middle + 2.0f * room), vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
+    return stretch;
+}
+
+// Pieces on which the part of a curve that a pixel spans counts as straight.
+int burin_piece_count(BurinElement e, vec2 limits, float radius) {
+    if (!e.curved) return 1;
+    vec2 t0 = burin_direction(burin_path_rate(e, limits.x), e.t0);
+    vec2 t1 = burin_direction(burin_path_rate(e, limits.y), e.t2);
+    float turn = acos(clamp(dot(t0, t1), -1.0f, 1.0f));
+    float way = length(burin_path_at(e, limits.y) - burin_path_at(e, limits.x));
+    // Of the turn, what falls into the pixel.
+    float within = turn * min(2.0f * radius / max(way, 1.0e-20f), 1.0f);
+    return within < 0.1f ? 1 : clamp(int(ceil(turn * 6.0f)), 1, 8);
+}
+
+void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootprint footprint, vec2 light_slope,
+                       bool shadows, BURIN_INOUT(BurinRegion) region) {
+    BurinStyle style = burin_style(e.style);
+    float wide = style.reach * burin_widest(e);
+    float high = max(style.level - cell.highest, cell.lowest - style.level);
+    BurinReachOf reach;
+    reach.spread = length(ray.slope) * high;
+    float shadow = shadows ? max(style.level - cell.highest, 0.0f) : 0.0f;
+    vec2 place = ray.slope * style.level;
+    reach.along = footprint.radius + reach.spread;
+    reach.across = wide + footprint.radius + reach.spread + shadow * length(light_slope);
+    BurinEnd start = burin_end(e, true);
+    BurinEnd end = burin_end(e, false);
+    vec2 lean = vec2(burin_end_lean(start, e.t0), burin_end_lean(end, e.t2));
+    vec2 tips = abs(lean) * wide;
+    if (!burin_end_is_plain(start)) tips.x = wide;
+    if (!burin_end_is_plain(end)) tips.y = wide;
+    BurinStretch stretch = burin_stretch_of(e, place, reach, tips);
+    vec2 limits = stretch.limits;
+    if (limits.y < limits.x) return;
+    stretch.room = footprint.radius;
+    vec2 way = ray.slope * max(cell.lowest - cell.highest, 0.0f);
+    vec2 light_way = light_slope * (shadows ? max(cell.lowest - cell.highest, 0.0f) : 0.0f);
+    region.special = region.special | burin_end_mask(start, footprint, place, wide, lean.x, way, light_way) |
+                     burin_end_mask(end, footprint, place, wide, lean.y, way, light_way);
+    uint mask = 0u;
+    int pieces = burin_piece_count(e, limits, footprint.radius);
+    float centre = stretch.middle;
+    for (int i = 0; i < 8; ++i) {
+        if (i >= pieces) break;
+        stretch.limits = vec2(mix(limits.x, limits.y, float(i) / float(pieces)),
+                              mix(limits.x, limits.y, float(i + 1) / float(pieces)));
+        stretch.lean = vec2(stretch.limits.x <= 0.0f ? lean.x : 0.0f, stretch.limits.y >= 1.0f ? lean.y : 0.0f);
+        stretch.near_first = i == 0 && limits.x <= 0.0f;
+        stretch.near_last = i == pieces - 1 && limits.y >= 1.0f;
+        if (pieces > 1) {
+            stretch.middle = clamp(centre, stretch.limits.x, stretch.limits.y);
+            stretch.normal = burin_normal_of(burin_direction(burin_path_rate(e, stretch.middle), e.t0));
+            stretch.scales = burin_scales_at(e, stretch.middle);
+        }
+        mask = mask | burin_add_stripe(e, style, stretch, footprint, ray.slope, light_slope, shadows, region);
+    }
+    // A ray that runs along a bend for long meets it elsewhere than the stripes are.
+    float curvature = abs(burin_bend(e, stretch, ray.slope, light_slope).curvature);
+    if (curvature * reach.spread > BURIN_MOST_BEND) region.special = 0xffffu;
+    // Features over each other; thin ones hardly are.
+    float area = region.strip_area;
+    region.strip_area = 0.0f;
+    if (area * region.covered_area > BURIN_LEAST_AREA) region.special = region.special | (region.covered & mask);
+    region.covered = region.covered | mask;
+    region.covered_area = region.covered_area + area;
+}
+
+// Corners of the box, in cells, that the pixel passes between the drops.
+vec4 burin_region_box(BurinRay ray, BurinFootprint footprint, vec2 drops) {
+    vec2 half_size = 0.5f * (abs(footprint.along_x) + abs(footprint.along_y));
+    vec2 a = ray.origin + ray.slope * drops.x;
+    vec2 b = ray.origin + ray.slope * drops.y;
+    vec2 to_cells = vec2(burin_map.cells) / burin_map.size;
+    vec2 low = (min(a, b) - half_size) * to_cells;
+    vec2 high = (max(a, b) + half_size) * to_cells;
+    return vec4(floor(low.x), floor(low.y), floor(high.x), floor(high.y));
+}
+
+// `ground` is the colour of lit ground. The ray passes the object surface at the pixel's centre. Where fullness is 1 or
+// more the pixel spans too much to be looked through, and the rest says nothing.
+BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, vec3 ground) {
+    BurinRegion region;
+    region.color = vec3(0.0f, 0.0f, 0.0f);
+    region.ground = ground;
+    region.covered = 0u;
+    region.special = 0u;
+    region.covered_area = 0.0f;
+    region.strip_area = 0.0f;
+    vec4 box = burin_region_box(ray, footprint, burin_map.drop_range);
+    ivec2 low = ivec2(int(box.x), int(box.y));
+    ivec2 sides = ivec2(int(box.z), int(box.w)) - low + ivec2(1, 1);
+    bool inside = low.x >= 0 && low.y >= 0 && low.x + sides.x <= burin_map.cells.x && low.y + sides.y <= burin_map.cells.y;
+    region.fullness = float(sides.x * sides.y) / float(BURIN_MAX_REGION_CELLS);
+    if (region.fullness > 1.0f) return region;
+    if (burin_map.repeats == 0 && !inside) {
+        region.special = 0xffffu;
+        return region;
+    }
+    uint seen[BURIN_MAX_REGION_ELEMENTS];
+    vec2 places[BURIN_MAX_REGION_ELEMENTS];
+    int count = 0;
+    for (int k = 0; k < BURIN_MAX_REGION_CELLS; ++k) {
+        if (k >= sides.x * sides.y) break;
+        ivec2 index = low + ivec2(k % sides.x, k / sides.x);
+        ivec2 wrapped = index - ivec2(floor(vec2(index) / vec2(burin_map.cells))) * burin_map.cells;
+        BurinCell cell = burin_cell(wrapped);
+        vec2 centre = (vec2(index) + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
+        uvec4 texel = uvec4(0u, 0u, 0u, 0u);
+        for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
+            if (i >= cell.count) break;
+            if (i == 0 || (cell.first + i) % BURIN_REFS_PER_TEXEL == 0) texel = burin_reference_texel(cell.first + i);
+            uint reference = burin_reference(texel, cell.first + i);
+            BurinElement e = burin_element(reference, ray.origin, centre);
+            // Cells share elements; each copy of one counts once.
+            bool known = false;
+            for (int j = 0; j < BURIN_MAX_REGION_ELEMENTS; ++j) {
+                if (j >= count) break;
+                if (seen[j] == reference && length(places[j] - e.p0) < 0.25f * min(burin_map.size.x, burin_map.size.y)) known = true;
+            }
+            if (known) continue;
+            if (count == BURIN_MAX_REGION_ELEMENTS) {
+                region.fullness = 1.0f;
+                return region;
+            }
+            seen[count] = reference;
+            places[count] = e.p0;
+            ++count;
+            burin_add_element(e, cell, ray, footprint, light_slope, shadows, region);
+        }
+    }
+    region.fullness = max(region.fullness, float(count) / float(BURIN_MAX_REGION_ELEMENTS));
+    return region;
+}
