@@ -33,6 +33,9 @@
 // The most that the surface may turn or stretch over one depth.
 #define BURIN_MOST_CURVE 10.0f
 
+// Slope beyond which no straight ray stands in for one over a round surface: some 70 degrees.
+#define BURIN_MOST_STRAIGHT 3.0f
+
 struct BurinRound {
     bool bent;  // false: flat and evenly stretched; the others are not asked
     vec3 entry;  // local point of the mesh where the eye's ray passes it
@@ -330,7 +333,8 @@ BurinFound burin_trace_sight(BurinRound bend, vec2 start, BurinSight sight) {
 }
 
 // A straight ray of pattern space that stands in for the eye's where it meets the relief, about half its depth down: for
-// what looks at a pixel as a whole. `drop` is where the two meet. False where the eye's ray does not come so deep.
+// what looks at a pixel as a whole. `drop` is where the two meet. False where the eye's ray does not come so deep, or
+// is too flat there.
 bool burin_straighten(BurinRound bend, vec3 direction, BURIN_INOUT(BurinRay) ray, BURIN_OUT(float) drop) {
     drop = 0.0f;
     if (!bend.bent) return true;
@@ -345,7 +349,7 @@ bool burin_straighten(BurinRound bend, vec3 direction, BURIN_INOUT(BurinRay) ray
     vec3 lower = burin_place(bend, bend.entry + direction * way, vec2(upper));
     if (lower.z - upper.z < 0.25f * deep) return false;
     ray.slope = (vec2(lower) - vec2(upper)) * (1.0f / (lower.z - upper.z));
-    if (length(ray.slope) > 1.0f / BURIN_LEAST_FALL) return false;
+    if (length(ray.slope) > BURIN_MOST_STRAIGHT) return false;
     ray.origin = start + vec2(upper) - ray.slope * upper.z;
     drop = lower.z;
     return true;
