@@ -106,6 +106,8 @@ std::vector<OptionSpec> make_table() {
         {"--light", "render", numbers, "AZIMUTH,ELEVATION", "deg", light, -360, 360, "", false,
          "direction the light comes from"},
         {"--no-shadows", "render", flag, "", "", "", 0, 0, "", false, "leave shadows out"},
+        {"--correct-depth", "render", flag, "", "", "", 0, 0, "", false,
+         "other meshes are hidden by the relief and not by the mesh that carries it"},
         {"--samples", "render", integer, "COUNT", "", plain(render.samples), 1, 256, "", false,
          "samples per pixel; with --top one unless given"},
         {"--antialiasing", "render", choice, "WHICH", "", "regions", 0, 0, "regions|points", false,
@@ -131,7 +133,7 @@ const std::vector<OptionSpec>& option_table() {
 
 const std::vector<OptionConflict>& option_conflicts() {
     static const std::vector<OptionConflict> table = {
-        {"render", "--azimuth --elevation --zoom --center --fov --orthographic --eye --target --light --no-shadows",
+        {"render", "--azimuth --elevation --zoom --center --fov --orthographic --eye --target --light --no-shadows --correct-depth",
          "--top",
          "heights have neither camera nor light; --size, --samples, --material and --backend go with --top, and without "
          "--top all of them do"},

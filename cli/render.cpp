@@ -72,6 +72,7 @@ RenderOptions render_options(const Arguments& arguments) {
     options.light.azimuth = light[0];
     options.light.elevation = light[1];
     options.shadows = !arguments.flag("--no-shadows");
+    options.correct_depth = arguments.flag("--correct-depth");
     options.samples = arguments.integer("--samples");
     options.antialiasing = arguments.text("--antialiasing") == "points" ? Antialiasing::points : Antialiasing::regions;
     options.rays = arguments.integer("--rays");

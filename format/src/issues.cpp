@@ -48,6 +48,8 @@ constexpr IssueKind kKinds[] = {
     {2025, kError, "residualTexture's scale is out of range"},
     {2026, kError, "residualTexture's texCoord is not the pattern's"},
     {2027, kError, "residualTexture's sampler does not wrap like the pattern"},
+    {2040, kError, "primitive has some of the derivatives and lacks others"},
+    {2041, kError, "derivatives are not VEC3 of FLOAT, one per vertex"},
     {3001, kError, "list exceeds the list section"},
     {3002, kError, "empty list with a first reference"},
     {3003, kError, "empty list with flag STEP"},

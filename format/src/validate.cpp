@@ -143,6 +143,41 @@ void check_material(const json& document, const json& extension, Buffers& buffer
                    detail, reporter);
 }
 
+// Accessor of an attribute of a primitive; nullptr when there is none.
+const json* accessor_of(const json& document, const json& primitive, const char* name) {
+    const auto attributes = primitive.find("attributes");
+    if (attributes == primitive.end() || !attributes->is_object()) return nullptr;
+    return referred(document, "accessors", *attributes, name);
+}
+
+// The derivatives of the position are all there or none, in the form that a reader expects.
+void check_frames(const json& document, const json& primitive, const std::string& place, Reporter& reporter) {
+    constexpr std::int64_t kFloat = 5126;
+    const auto attributes = primitive.find("attributes");
+    if (attributes == primitive.end() || !attributes->is_object()) return;
+    std::string missing;
+    std::size_t found = 0;
+    for (const char* name : kFrameAttributes) {
+        if (attributes->contains(name)) ++found;
+        else missing = name;
+    }
+    if (found == 0) return;
+    if (found < kFrameAttributes.size())
+        reporter.report(2040, "the primitive has derivatives of the position but no " + missing, place);
+    const json* positions = accessor_of(document, primitive, "POSITION");
+    for (const char* name : kFrameAttributes) {
+        if (!attributes->contains(name)) continue;
+        const json* accessor = accessor_of(document, primitive, name);
+        std::int64_t type = 0;
+        const bool right = accessor != nullptr && positions != nullptr && accessor->value("type", json()) == "VEC3" &&
+                           accessor->contains("componentType") && read_integer((*accessor)["componentType"], 0, 1 << 16, type) &&
+                           type == kFloat && accessor->value("count", json()) == positions->value("count", json());
+        if (!right)
+            reporter.report(2041, std::string(name) + " must be VEC3 of FLOAT (5126), as many as positions",
+                            place + "/attributes/" + name);
+    }
+}
+
 // A primitive with the material needs the texture coordinates that the extension names.
 void check_primitives(const json& document, const std::map<std::size_t, std::string>& attribute_of_material,
                       Reporter& reporter) {
@@ -161,13 +196,14 @@ void check_primitives(const json& document, const std::map<std::size_t, std::str
             }
             const auto wanted = attribute_of_material.find(static_cast<std::size_t>(material));
             if (wanted == attribute_of_material.end()) continue;
+            const std::string place = "/meshes/" + std::to_string(m) + "/primitives/" + std::to_string(p);
+            check_frames(document, primitive, place, reporter);
             const auto attributes = primitive.find("attributes");
             if (attributes != primitive.end() && attributes->is_object() &&
                 attributes->contains(wanted->second))
                 continue;
             reporter.report(
-                2022, "the primitive has no " + wanted->second + ", which its material's texCoord names",
-                "/meshes/" + std::to_string(m) + "/primitives/" + std::to_string(p));
+                2022, "the primitive has no " + wanted->second + ", which its material's texCoord names", place);
         }
     }
 }

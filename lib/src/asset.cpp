@@ -133,13 +133,6 @@ std::array<double, 9> normal_matrix(const Matrix& m) {
     return n;
 }
 
-void set_unit(Vec3 n, float* out) {
-    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    if (!(length > 0.0) || !std::isfinite(length)) n = {0, 1, 0};
-    const double scale = length > 0.0 && std::isfinite(length) ? 1.0 / length : 1.0;
-    for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<float>(n[k] * scale);
-}
-
 void transform_vertices(const Matrix& m, Primitive& primitive) {
     for (std::size_t i = 0; i + 2 < primitive.positions.size(); i += 3) {
         float* p = primitive.positions.data() + i;
@@ -155,31 +148,37 @@ void transform_vertices(const Matrix& m, Primitive& primitive) {
         for (std::size_t r = 0; r < 3; ++r) v[r] = sign * (n[r] * p[0] + n[3 + r] * p[1] + n[6 + r] * p[2]);
         set_unit(v, p);
     }
+    for (SurfaceFrame& frame : primitive.frames)
+        for (std::array<float, 3>* vector : {&frame.du, &frame.dv, &frame.duu, &frame.duv, &frame.dvv}) {
+            const Vec3 v{(*vector)[0], (*vector)[1], (*vector)[2]};
+            for (std::size_t r = 0; r < 3; ++r)
+                (*vector)[r] = static_cast<float>(m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2]);
+        }
     // A mirror turns the faces over; their order keeps them counter-clockwise.
     if (sign < 0.0)
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
             std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
 }
 
-void compute_normals(Primitive& primitive) {
-    const std::vector<float>& p = primitive.positions;
-    std::vector<double> sums(p.size(), 0.0);
-    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-        const std::size_t a = 3 * std::size_t{primitive.indices[i]},
-                          b = 3 * std::size_t{primitive.indices[i + 1]},
-                          c = 3 * std::size_t{primitive.indices[i + 2]};
-        Vec3 e{}, f{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            e[k] = static_cast<double>(p[b + k]) - p[a + k];
-            f[k] = static_cast<double>(p[c + k]) - p[a + k];
-        }
-        const Vec3 n{e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
-        for (const std::size_t v : {a, b, c})
-            for (std::size_t k = 0; k < 3; ++k) sums[v + k] += n[k];
+// The derivatives of the position, where a primitive brings all of them.
+Status read_frames(const ModelData& model, const Json& item, Primitive& primitive) {
+    const std::size_t count = primitive.positions.size() / 3;
+    std::array<std::vector<float>, kFrameAttributes.size()> values;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const auto accessor = attribute_of(item, kFrameAttributes[k]);
+        if (!accessor.has_value()) return Done{};
+        if (accessor_kind(array_of(model.document, "accessors")[*accessor]).components != 3)
+            return model_error(std::string(kFrameAttributes[k]) + " is not VEC3");
+        values[k] = read_numbers(model, *accessor);
     }
-    primitive.normals.resize(p.size());
-    for (std::size_t i = 0; i + 2 < p.size(); i += 3)
-        set_unit({sums[i], sums[i + 1], sums[i + 2]}, primitive.normals.data() + i);
+    primitive.frames.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        SurfaceFrame& frame = primitive.frames[i];
+        std::array<float, 3>* vectors[] = {&frame.du, &frame.dv, &frame.duu, &frame.duv, &frame.dvv};
+        for (std::size_t k = 0; k < values.size(); ++k)
+            *vectors[k] = {values[k][3 * i], values[k][3 * i + 1], values[k][3 * i + 2]};
+    }
+    return Done{};
 }
 
 class AssetReader {
@@ -225,10 +224,11 @@ class AssetReader {
         if (const auto normals = attribute_of(item, "NORMAL"); normals.has_value())
             primitive.normals = read_numbers(model_, *normals);
         else
-            compute_normals(primitive);
+            primitive.normals = normals_of_faces(primitive.positions, primitive.indices);
         const int set = asset_.materials[static_cast<std::size_t>(primitive.material)].detail.tex_coord;
         const auto uvs = attribute_of(item, "TEXCOORD_" + std::to_string(set));
         primitive.uvs = uvs.has_value() ? read_numbers(model_, *uvs) : std::vector<float>(2 * count, 0.0f);
+        if (Status status = read_frames(model_, item, primitive); !status.ok()) return status.error();
         transform_vertices(transform, primitive);
         asset_.primitives.push_back(std::move(primitive));
         return Done{};

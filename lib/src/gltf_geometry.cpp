@@ -263,4 +263,30 @@ std::vector<std::uint32_t> triangle_indices(const ModelData& model, const Json& 
     return triangles;
 }
 
+void set_unit(std::array<double, 3> n, float* out) {
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 0.0) || !std::isfinite(length)) n = {0, 1, 0};
+    const double scale = length > 0.0 && std::isfinite(length) ? 1.0 / length : 1.0;
+    for (std::size_t k = 0; k < 3; ++k) out[k] = static_cast<float>(n[k] * scale);
+}
+
+std::vector<float> normals_of_faces(const std::vector<float>& p, const std::vector<std::uint32_t>& indices) {
+    std::vector<double> sums(p.size(), 0.0);
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const std::size_t a = 3 * std::size_t{indices[i]}, b = 3 * std::size_t{indices[i + 1]},
+                          c = 3 * std::size_t{indices[i + 2]};
+        std::array<double, 3> e{}, f{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            e[k] = static_cast<double>(p[b + k]) - p[a + k];
+            f[k] = static_cast<double>(p[c + k]) - p[a + k];
+        }
+        const std::array<double, 3> n{e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]};
+        for (const std::size_t v : {a, b, c})
+            for (std::size_t k = 0; k < 3; ++k) sums[v + k] += n[k];
+    }
+    std::vector<float> normals(p.size());
+    for (std::size_t i = 0; i + 2 < p.size(); i += 3) set_unit({sums[i], sums[i + 1], sums[i + 2]}, normals.data() + i);
+    return normals;
+}
+
 }  // namespace burin

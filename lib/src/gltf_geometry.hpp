@@ -42,4 +42,10 @@ std::optional<std::size_t> attribute_of(const Json& primitive, const std::string
 std::uint64_t vertex_count(const ModelData& model, const Json& primitive);
 bool is_triangles(const Json& primitive);
 
+// Writes n as a unit vector to `out`, (0, 1, 0) where it has no direction.
+void set_unit(std::array<double, 3> n, float* out);
+
+// Normals of vertices from the faces around them, by area.
+std::vector<float> normals_of_faces(const std::vector<float>& positions, const std::vector<std::uint32_t>& indices);
+
 }  // namespace burin

@@ -21,6 +21,16 @@ bool mentions(const Json& json, const char* key, std::uint64_t number) {
                        [&](const Json& item) { return mentions(item, key, number); });
 }
 
+// Whether a primitive still has an attribute in that accessor. Accessors are released that only attributes refer to.
+bool is_attribute(const Json& document, std::uint64_t accessor) {
+    for (const Json& mesh : array_of(document, "meshes"))
+        for (const Json& primitive : array_of(mesh, "primitives"))
+            if (const Json* attributes = find_member(primitive, "attributes"); attributes != nullptr)
+                for (const Json& value : *attributes)
+                    if (value == accessor) return true;
+    return false;
+}
+
 ByteRange range_of(const Json& view) {
     const std::uint64_t begin = unsigned_or(view, "byteOffset", 0);
     return {begin, begin + unsigned_or(view, "byteLength", 0)};
@@ -53,6 +63,7 @@ bool Places::is_used(const std::string& array, std::uint64_t index) const {
     if (array == "textures") return mentions(document_, "index", index);
     if (array == "images") return mentions(array_of(document_, "textures"), "source", index);
     if (array == "samplers") return mentions(array_of(document_, "textures"), "sampler", index);
+    if (array == "accessors") return is_attribute(document_, index);
     return mentions(document_, "bufferView", index);
 }
 
@@ -69,6 +80,7 @@ void Places::release(const char* array, std::uint64_t index) {
 
 void Places::vacate(const std::string& array, const Json& old) {
     if (array == "textures") release("images", unsigned_or(old, "source", kNone));
+    if (array == "accessors") release("bufferViews", unsigned_or(old, "bufferView", kNone));
     if (array == "images") release("bufferViews", unsigned_or(old, "bufferView", kNone));
     if (array == "bufferViews") dropped_.push_back(range_of(old));
 }
@@ -95,7 +107,7 @@ std::size_t Places::take(const char* array) {
 }
 
 void Places::trim() {
-    for (const char* array : {"textures", "samplers", "images", "bufferViews"}) {
+    for (const char* array : {"accessors", "textures", "samplers", "images", "bufferViews"}) {
         if (!document_.contains(array)) continue;
         Json& list = document_[array];
         while (!list.empty() && free_[array].erase(list.size() - 1) > 0) {

@@ -24,7 +24,7 @@ class Places {
   public:
     explicit Places(Json& document) : document_(document) {}
 
-    // Says that a texture, image, sampler or view is not needed any more. Nothing happens where something
+    // Says that a texture, image, sampler, view, or accessor of an attribute, is not needed any more. Nothing happens where something
     // else still refers to it, or where there is no such place.
     void release(const char* array, std::uint64_t index);
 

@@ -1,5 +1,6 @@
 // The document with the pattern, as one glb.
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <optional>
 
@@ -119,6 +120,9 @@ class GlbWriter {
         return materials[index];
     }
 
+    // Derivatives of the position, on those primitives of a material that are not flat.
+    void add_frames(std::size_t material, int tex_coord);
+
     void use_extension(const std::string& name) {
         Json& used = document_["extensionsUsed"];
         if (!used.is_array()) used = Json::array();
@@ -199,6 +203,9 @@ class GlbWriter {
         return take_off(extension, "residualTexture", kResidualName);
     }
 
+    // Takes the derivatives off the primitives of a material.
+    void take_off_frames(std::size_t material);
+
     const ModelData& model_;
     Json document_;
     Places places_;  // of document_
@@ -245,6 +252,64 @@ void GlbWriter::detach(std::size_t index) {
     for (const char* key : {"grid", "data"})
         if (const Json* texture = find_member(extension, key))
             places_.release("bufferViews", unsigned_or(*texture, "bufferView", kNone));
+    take_off_frames(index);
+}
+
+void GlbWriter::take_off_frames(std::size_t material) {
+    constexpr std::uint64_t kNone = ~std::uint64_t{0};
+    for (Json& mesh : document_["meshes"])
+        for (Json& primitive : mesh["primitives"]) {
+            if (unsigned_or(primitive, "material", kNone) != material) continue;
+            for (const char* name : kFrameAttributes) {
+                const auto accessor = attribute_of(primitive, name);
+                if (!accessor.has_value()) continue;
+                primitive["attributes"].erase(name);
+                places_.release("accessors", *accessor);
+            }
+        }
+}
+
+// Frames of a primitive, as floats in the order of its vertices and of kFrameAttributes; empty where it is flat.
+std::vector<float> frames_of(const ModelData& model, const Json& primitive, int tex_coord) {
+    std::string uv_name = "TEXCOORD_";
+    uv_name += std::to_string(tex_coord);
+    const std::vector<float> positions = read_numbers(model, *attribute_of(primitive, "POSITION"));
+    const std::vector<float> uvs = read_numbers(model, *attribute_of(primitive, uv_name));
+    const std::vector<std::uint32_t> indices = triangle_indices(model, primitive);
+    const auto given = attribute_of(primitive, "NORMAL");
+    const std::vector<float> normals = given ? read_numbers(model, *given) : normals_of_faces(positions, indices);
+    std::vector<float> values;
+    for (const SurfaceFrame& frame : compute_frames({positions, normals, uvs, indices}))
+        for (const std::array<float, 3>& v : {frame.du, frame.dv, frame.duu, frame.duv, frame.dvv})
+            values.insert(values.end(), v.begin(), v.end());
+    return values;
+}
+
+void GlbWriter::add_frames(std::size_t material, int tex_coord) {
+    constexpr std::size_t kStride = kFrameAttributes.size() * 12;
+    constexpr int kFloat = 5126, kArrayBuffer = 34962;
+    const Json& meshes = array_of(model_.document, "meshes");
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
+            Json& primitive = document_["meshes"][m]["primitives"][p];
+            if (!is_triangles(primitive) || unsigned_or(primitive, "material", ~std::uint64_t{0}) != material) continue;
+            const std::vector<float> values = frames_of(model_, meshes[m]["primitives"][p], tex_coord);
+            if (values.empty()) continue;
+            // Places first, so that those of a replaced pattern give their view back.
+            std::array<std::size_t, kFrameAttributes.size()> accessors;
+            for (std::size_t& accessor : accessors) accessor = places_.take("accessors");
+            std::vector<std::uint8_t> bytes;
+            bytes.reserve(values.size() * 4);
+            for (const float value : values) append_word(bytes, std::bit_cast<std::uint32_t>(value));
+            const std::size_t view = add_view(bytes, kAlignment);
+            document_["bufferViews"][view].update(
+                {{"byteStride", kStride}, {"target", kArrayBuffer}, {"name", "path detail, frames"}});
+            for (std::size_t k = 0; k < accessors.size(); ++k) {
+                document_["accessors"][accessors[k]] = {{"bufferView", view}, {"byteOffset", 12 * k}, {"componentType", kFloat},
+                                                        {"count", bytes.size() / kStride}, {"type", "VEC3"}};
+                primitive["attributes"][kFrameAttributes[k]] = accessors[k];
+            }
+        }
 }
 
 // Puts the fallback's normal map into the core material and keeps what stood there under the extras.
@@ -304,6 +369,7 @@ Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedText
         return status.error();
     material["extensions"][std::string(kPathDetailExtension)] = Json::parse(write_extension(described));
     writer.use_extension(std::string(kPathDetailExtension));
+    writer.add_frames(target->index, options.tex_coord);
     return writer.finish();
 }
 

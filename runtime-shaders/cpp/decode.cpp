@@ -49,6 +49,7 @@ class Core {
 #include "core/section.glsl"
 #include "core/ground.glsl"
 #include "core/trace.glsl"
+#include "core/curvature.glsl"
 #include "core/surface.glsl"
 #include "core/residual.glsl"
 
@@ -81,13 +82,9 @@ Core make_core(const PackedTextures& textures, const PathDetail& detail) {
 
 }  // namespace glsl
 
-DecodedHit Decoder::trace(Vec2 origin, Vec2 slope, DecodeCounts* counts) const {
-    glsl::Core core = glsl::make_core(textures_, detail_);
-    core.counts = counts;
-    glsl::Core::BurinRay ray;
-    ray.origin = glm::vec2(float(origin.x), float(origin.y));
-    ray.slope = glm::vec2(float(slope.x), float(slope.y));
-    const glsl::Core::BurinHit found = core.burin_trace(ray, 0.0f, core.burin_map.depth);
+namespace {
+
+DecodedHit describe(glsl::Core& core, const glsl::Core::BurinHit& found) {
     const glsl::Core::BurinSurface surface = core.burin_surface(found);
     DecodedHit hit;
     hit.met = found.met;
@@ -98,6 +95,37 @@ DecodedHit Decoder::trace(Vec2 origin, Vec2 slope, DecodeCounts* counts) const {
     hit.element = found.mark.element;
     hit.facet = surface.facet;
     hit.material = surface.material;
+    return hit;
+}
+
+glm::vec3 to_vec3(const std::array<double, 3>& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
+
+}  // namespace
+
+DecodedHit Decoder::trace(Vec2 origin, Vec2 slope, DecodeCounts* counts) const {
+    glsl::Core core = glsl::make_core(textures_, detail_);
+    core.counts = counts;
+    glsl::Core::BurinRay ray;
+    ray.origin = glm::vec2(float(origin.x), float(origin.y));
+    ray.slope = glm::vec2(float(slope.x), float(slope.y));
+    return describe(core, core.burin_trace(ray, 0.0f, core.burin_map.depth));
+}
+
+SurfaceHit Decoder::trace_surface(const SurfacePlace& place, const std::array<double, 3>& direction) const {
+    glsl::Core core = glsl::make_core(textures_, detail_);
+    const glm::vec2 size = core.burin_map.size;
+    const glm::mat3 frame(to_vec3(place.du) / size.x, to_vec3(place.dv) / size.y, to_vec3(place.normal));
+    const glm::mat3 to_local = glm::inverse(frame);
+    const auto bend =
+        core.burin_bend_at(frame, to_local, to_vec3(place.duu), to_vec3(place.duv), to_vec3(place.dvv), to_vec3(place.spread));
+    const glm::vec3 local = to_local * to_vec3(direction);
+    glsl::Core::BurinRay ray;
+    ray.origin = glm::vec2(float(place.uv.x), float(place.uv.y)) * size;
+    ray.slope = core.burin_slope_of(local);
+    const auto found = core.burin_trace_sight(bend, ray.origin, core.burin_eye_sight(bend, ray.origin, ray, local));
+    SurfaceHit hit;
+    static_cast<DecodedHit&>(hit) = describe(core, found.hit);
+    hit.way = double(found.way);
     return hit;
 }
 

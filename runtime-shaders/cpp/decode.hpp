@@ -8,6 +8,7 @@
 // Units: pattern space, metres; z as in pattern.hpp (object surface at base_offset).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <burin/format/extension.hpp>
@@ -39,6 +40,22 @@ struct DecodeCounts {
     std::uint64_t cells = 0, elements = 0, styles = 0, profiles = 0, materials = 0, lists = 0;
 };
 
+// Where a ray passes the object surface, as a fragment shader gets it from the vertices: derivatives of the position by u
+// and v in space (burin/frames.hpp). Second derivatives of 0: flat.
+struct SurfacePlace {
+    Vec2 uv;
+    std::array<double, 3> normal{0, 0, 1};  // unit length
+    std::array<double, 3> du{}, dv{}, duu{}, duv{}, dvv{};
+    // Of u u, u v, v v over the triangle: their means over its corners, with the weights of the point, less the point's own.
+    std::array<double, 3> spread{};
+};
+
+// Of a ray in space. met is false where the ray comes out through the object surface without meeting anything, as it
+// does beside the outline of a convex surface: nothing is to be drawn there.
+struct SurfaceHit : DecodedHit {
+    double way = 0.0;  // metres along the ray
+};
+
 // Reads the textures where they are: both arguments must outlive it.
 // Requires: textures that passed validate_textures; any others give some answer, and no access out of bounds.
 // Every member is const and safe to call from several threads.
@@ -51,6 +68,10 @@ class Decoder {
     // drop. Cost: cells passed times elements listed, some microseconds.
     // `counts`, where given, grows by what the ray fetches.
     DecodedHit trace(Vec2 origin, Vec2 slope, DecodeCounts* counts = nullptr) const;
+
+    // The ray that passes the object surface at `place` with a direction of unit length that leads into it, followed over
+    // the bent and stretched surface. Cost: as `trace`, once per chord of the curve that the ray is in pattern space.
+    SurfaceHit trace_surface(const SurfacePlace& place, const std::array<double, 3>& direction) const;
 
     // Metres above ground level 0, seen from straight above.
     double height_at(Vec2 p) const;

@@ -18,21 +18,16 @@ void derived_directions(BURIN_OUT(vec3) along_u, BURIN_OUT(vec3) along_v) {
     along_v = (py * ux.x - px * uy.x) / area;
 }
 
-// Columns: world directions of one metre along x, y and z of pattern space.
-mat3 pattern_frame(vec3 n) {
+// Columns: world directions of one metre along x, y and z of pattern space. `own`: as the mesh brings them.
+mat3 pattern_frame(vec3 n, BURIN_OUT(bool) own) {
     vec3 along_u;
     vec3 along_v;
     derived_directions(along_u, along_v);
     // Where mirrored faces meet, what the mesh brings cancels out.
-    bool own = dot(world_along_u, along_u) > 0.5 * dot(along_u, along_u) &&
-               dot(world_along_v, along_v) > 0.5 * dot(along_v, along_v);
+    own = dot(world_along_u, along_u) > 0.5 * dot(along_u, along_u) &&
+          dot(world_along_v, along_v) > 0.5 * dot(along_v, along_v);
+    if (has_frames()) own = frames_hold(n, world_along_u, world_along_v, along_u, along_v);
     vec3 along_x = (own ? world_along_u : along_u) / burin_map.size.x;
     vec3 along_y = (own ? world_along_v : along_v) / burin_map.size.y;
     return mat3(along_x - n * dot(along_x, n), along_y - n * dot(along_y, n), n);
-}
-
-// Metres over the plane per metre of fall, of a direction that goes down.
-vec2 slope_of(vec3 direction) {
-    vec2 slope = direction.xy / max(-direction.z, 0.02 * length(direction) + 1.0e-12);
-    return slope;
 }

@@ -15,7 +15,7 @@
 namespace burin::gl {
 
 // Which fragment shader of this folder a program ends in.
-enum class Stage { rays, top, surface };
+enum class Stage { rays, top, surface, surface_with_depth };  // the last writes the depth of what is met
 
 // Kinds of functions along paths that the textures hold, for BURIN_FUNCTION_KINDS of core/types.glsl.
 int function_kinds(const PackedTextures& textures);

@@ -182,6 +182,15 @@ std::vector<float> directions_of(const Primitive& primitive) {
     return sums;
 }
 
+// First and second derivatives of the position, fifteen numbers per vertex.
+std::vector<float> frames_of(const Primitive& primitive) {
+    std::vector<float> values;
+    values.reserve(primitive.frames.size() * 15);
+    for (const SurfaceFrame& frame : primitive.frames)
+        for (const auto& v : {frame.du, frame.dv, frame.duu, frame.duv, frame.dvv}) values.insert(values.end(), v.begin(), v.end());
+    return values;
+}
+
 // One primitive as vertex arrays of its own.
 class Mesh {
   public:
@@ -193,10 +202,9 @@ class Mesh {
         attribute(0, 3, primitive.positions);
         attribute(1, 3, primitive.normals);
         attribute(2, 2, primitive.uvs);
-        attribute(3, 3, directions_of(primitive), 6);
-        gl_.VertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, 6 * sizeof(float),
-                                reinterpret_cast<void*>(3 * sizeof(float)));
-        gl_.EnableVertexAttribArray(4);
+        // Without frames the second derivatives are those of OpenGL's disabled attributes: zero.
+        const bool framed = !primitive.frames.empty();
+        attributes(3, framed ? 5 : 2, framed ? frames_of(primitive) : directions_of(primitive));
         gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[4]);
         gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(primitive.indices.size() * 4),
                        primitive.indices.data(), GL_STATIC_DRAW);
@@ -213,6 +221,16 @@ class Mesh {
     }
 
   private:
+    // `count` vectors of three per vertex, in attributes from `place` on.
+    void attributes(GLuint place, int count, const std::vector<float>& values) {
+        attribute(place, 3, values, 3 * count);
+        for (int i = 1; i < count; ++i) {
+            const auto offset = std::size_t(3 * i) * sizeof(float);
+            gl_.VertexAttribPointer(place + GLuint(i), 3, GL_FLOAT, GL_FALSE, GLsizei(3 * count * int(sizeof(float))),
+                                    reinterpret_cast<void*>(offset));
+            gl_.EnableVertexAttribArray(place + GLuint(i));
+        }
+    }
     // `stride` floats from one vertex to the next; 0: packed.
     void attribute(GLuint place, GLint components, const std::vector<float>& values, int stride = 0) {
         gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[place]);
@@ -468,7 +486,7 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     int kinds = 0;
     for (const auto& material : asset.materials)
         if (material.has_detail) kinds |= gl::function_kinds(material.textures);
-    auto program = gl::Program::build(gl, gl::Stage::surface, kinds);
+    auto program = gl::Program::build(gl, options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface, kinds);
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
     if (!target) return target.error();

@@ -42,6 +42,6 @@ vec3 burin_facet_color(vec3 normal, uint material, float lit) {
         metal = own.metallic;
         rough = own.roughness;
     }
-    vec3 n = normalize(transpose(to_pattern) * burin_add_slopes(normal, rest_slopes));
+    vec3 n = normalize(transpose(to_pattern) * burin_bend_normal(bend, bend_moved, bend_drop, burin_add_slopes(normal, rest_slopes)));
     return clamp(shade(n, albedo, metal, rough, lit), 0.0, 1.0);
 }

@@ -23,26 +23,46 @@ vec2 uv_along_x;
 vec2 uv_along_y;
 vec2 light_slope;   // metres that the light moves over the plane per metre of fall
 bool light_above;
+vec3 eye_direction;  // in the local frame, of unit length in space
 
-// What one ray meets, shadow included.
-vec3 point_color(BurinRay ray) {
-    BurinHit hit = burin_trace(ray, 0.0, burin_map.depth);
+// Normals and light are those at a place of the relief.
+void stand_at(vec2 moved, float drop) {
+    bend_moved = moved;
+    bend_drop = drop;
+    vec3 toward = to_pattern * light;
+    if (bend.bent) {
+        mat3 here = burin_bend_frame(bend, moved, drop);
+        // Near a pole of the uvs the second order says nothing about so far a place.
+        if (determinant(here) > 0.1) toward = inverse(here) * toward;
+    }
+    light_above = toward.z > 0.0;
+    light_slope = burin_slope_of(-toward);
+}
+
+// What one ray meets, shadow included; w: 0 where it leaves the object beside its outline.
+vec4 point_color(BurinRay ray) {
+    BurinFound found = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction));
+    BurinHit hit = found.hit;
+    if (!hit.met) return vec4(0.0);
     BurinSurface surface = burin_surface(hit);
     rest_slopes = fetch_residual(hit.ray.origin + hit.ray.slope * hit.t, uv_along_x, uv_along_y);
+    stand_at(found.place - bend_start, hit.t);
     float lit = light_above ? 1.0 : 0.0;
     float before = hit.t - 4.0e-3 * burin_map.depth;
     if (shadows != 0 && light_above && before > 0.0) {
         BurinRay shadow;
         shadow.slope = light_slope;
         shadow.origin = hit.ray.origin + (hit.ray.slope - light_slope) * hit.t;
-        if (burin_trace(shadow, 0.0, before).met) lit = 0.0;
+        BurinSight sight = burin_light_sight(bend, shadow, before, found, bend_start, ray.origin, eye_direction, to_pattern * light);
+        if (burin_trace_sight(bend, bend_start, sight).hit.met) lit = 0.0;
     }
-    return burin_facet_color(surface.normal, surface.material, lit);
+    return vec4(burin_facet_color(surface.normal, surface.material, lit), 1.0);
 }
 
-// Mean of side x side rays over a part of the pixel; along_x and along_y are that part's sides.
-vec3 sampled_color(BurinRay ray, vec2 along_x, vec2 along_y, int side) {
-    vec3 sum = vec3(0.0);
+// Mean of side x side rays over a part of the pixel; along_x and along_y are that part's sides. w: part of them that meet
+// something; the colour is the mean of those.
+vec4 sampled_color(BurinRay ray, vec2 along_x, vec2 along_y, int side) {
+    vec4 sum = vec4(0.0);
     for (int k = 0; k < 16; ++k) {
         if (k >= side * side) break;
         vec2 at = (vec2(float(k % side), float(k / side)) + 0.5) / float(side) - 0.5;
@@ -50,7 +70,7 @@ vec3 sampled_color(BurinRay ray, vec2 along_x, vec2 along_y, int side) {
         sample_ray.origin = ray.origin + along_x * at.x + along_y * at.y;
         sum += point_color(sample_ray);
     }
-    return sum / float(side * side);
+    return vec4(sum.rgb / max(sum.w, 1.0), sum.w / float(side * side));
 }
 
 // The whole pixel at once where its features do not meet; else its quarters; and those where they do, by rays.
@@ -87,7 +107,7 @@ vec4 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
         if (region.special != 0u) {
             found = vec3(0.0);
             if (pixel_filter == FILTER_MARKED) marks += 1 << (part - 1);
-            else found = sampled_color(part_ray, x, y, max(side / 2, 1));
+            else found = sampled_color(part_ray, x, y, max(side / 2, 1)).rgb;
         }
         sum += found * 0.25;
     }
@@ -108,25 +128,46 @@ void main() {
     uv_along_x = dFdx(pattern_uv) * pixel_part;
     uv_along_y = dFdy(pattern_uv) * pixel_part;
     if (dot(n, to_eye) < 0.0 && !gl_FrontFacing) n = -n;
-    mat3 frame = pattern_frame(n);
+#ifdef BURIN_CORRECT_DEPTH
+    gl_FragDepth = gl_FragCoord.z;
+#endif
+    bool own;
+    mat3 frame = pattern_frame(n, own);
     float handed = determinant(frame);
     if (has_detail == 0 || abs(handed) <= 1.0e-12 || dot(n, to_eye) <= 1.0e-3) {
         color = vec4(clamp(shade(n, base_color.rgb, metallic, roughness, 1.0), 0.0, 1.0), 0.0);
         return;
     }
     to_pattern = inverse(frame);
-    vec3 toward = to_pattern * light;
-    light_above = toward.z > 0.0;
-    light_slope = slope_of(-toward);
+    bend = pattern_bend(pattern_uv, frame, to_pattern, own);
+    bend_start = pattern_uv * burin_map.size;
+    eye_direction = to_pattern * -to_eye;
     BurinRay ray;
-    ray.origin = pattern_uv * burin_map.size;
-    ray.slope = slope_of(to_pattern * -to_eye);
+    ray.origin = bend_start;
+    ray.slope = burin_slope_of(eye_direction);
+    stand_at(vec2(0.0), 0.0);
+#ifdef BURIN_CORRECT_DEPTH
+    BurinFound middle = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction));
+    if (middle.hit.met) gl_FragDepth = depth_of(world_position - to_eye * middle.way);
+#endif
     vec2 along_x = uv_along_x * burin_map.size;
     vec2 along_y = uv_along_y * burin_map.size;
     if (pixel_filter == FILTER_REGIONS || pixel_filter == FILTER_MARKED) {
-        color = filtered_color(ray, along_x, along_y);
-        return;
+        BurinRay straight = ray;
+        float drop = 0.0;
+        if (burin_straighten(bend, eye_direction, straight, drop)) {
+            stand_at(straight.origin + straight.slope * drop - bend_start, drop);
+            color = filtered_color(straight, along_x, along_y);
+            return;
+        }
+        // Beside the outline of a round surface nothing straight stands in for the ray.
+        if (pixel_filter == FILTER_MARKED) {
+            color = vec4(0.0, 0.0, 0.0, 15.0);
+            return;
+        }
     }
     if (pixel_filter == FILTER_QUARTERS) ray.origin += along_x * ray_place.x + along_y * ray_place.y;
-    color = vec4(sampled_color(ray, along_x, along_y, pixel_filter == FILTER_RAYS ? side : 1), 0.0);
+    vec4 seen = sampled_color(ray, along_x, along_y, pixel_filter == FILTER_QUARTERS ? 1 : side);
+    if (seen.w == 0.0) discard;
+    color = vec4(seen.rgb, 0.0);
 }

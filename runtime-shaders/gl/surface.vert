@@ -5,11 +5,18 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec3 along_u;  // metres of the world per unit of u; zero: unknown
 layout(location = 4) in vec3 along_v;
+layout(location = 5) in vec3 duu;  // their changes, per unit of u and of v; zero: unknown
+layout(location = 6) in vec3 duv;
+layout(location = 7) in vec3 dvv;
 out vec3 world_position;
 out vec3 world_normal;
 out vec2 pattern_uv;
 out vec3 world_along_u;
 out vec3 world_along_v;
+out vec3 world_duu;
+out vec3 world_duv;
+out vec3 world_dvv;
+out vec3 uv_products;
 
 void main() {
     world_position = position;
@@ -17,5 +24,9 @@ void main() {
     pattern_uv = uv;
     world_along_u = along_u;
     world_along_v = along_v;
+    world_duu = duu;
+    world_duv = duv;
+    world_dvv = dvv;
+    uv_products = vec3(uv.x * uv.x, uv.x * uv.y, uv.y * uv.y);
     gl_Position = world_to_clip * vec4(position, 1.0);
 }

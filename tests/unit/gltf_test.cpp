@@ -286,6 +286,45 @@ TEST(Gltf, AttachingTwiceGivesTheBytesOfAttachingOnce) {
     }
 }
 
+// An eighth of a cylinder around y, two metres in diameter, below a node that doubles it.
+Model round_model() {
+    std::string obj;
+    for (int i = 0; i <= 8; ++i)
+        for (const int y : {0, 1}) {
+            const double a = 0.1 * i;
+            obj += "v " + std::to_string(std::sin(a)) + " " + std::to_string(y) + " " + std::to_string(std::cos(a)) + "\n";
+            obj += "vt " + std::to_string(0.1 * i) + " " + std::to_string(y) + "\n";
+            obj += "vn " + std::to_string(std::sin(a)) + " 0 " + std::to_string(std::cos(a)) + "\n";
+        }
+    const auto corner = [](int i) { return " " + std::to_string(i) + "/" + std::to_string(i) + "/" + std::to_string(i); };
+    for (int i = 1; i < 16; i += 2) obj += "f" + corner(i) + corner(i + 2) + corner(i + 3) + corner(i + 1) + "\n";
+    return model_of(Bytes(obj.begin(), obj.end()));
+}
+
+TEST(Gltf, RoundPrimitivesBringTheirDerivatives) {
+    const Bytes glb = attach(round_model());
+    Json document = json_of(glb);
+    EXPECT_FALSE(json_of(attach(make_plane({1, 1})))["meshes"][0]["primitives"][0]["attributes"].contains("_BURIN_DU"));
+    document["nodes"][0]["scale"] = {2.0, 2.0, 2.0};
+    const auto asset = read_asset(with_json(glb, document));
+    ASSERT_TRUE(asset.ok());
+    const Primitive& primitive = asset->primitives[0];
+    ASSERT_EQ(primitive.frames.size(), primitive.positions.size() / 3);
+    for (std::size_t i = 0; i < primitive.frames.size(); ++i) {
+        const SurfaceFrame& f = primitive.frames[i];
+        const float* n = &primitive.normals[3 * i];
+        const double curvature = double(f.duu[0] * n[0] + f.duu[1] * n[1] + f.duu[2] * n[2]);
+        EXPECT_NEAR(std::hypot(f.du[0], f.du[1], f.du[2]), 2.0, 0.02);
+        EXPECT_NEAR(curvature, -2.0, 0.02);
+        EXPECT_NEAR(std::abs(f.dv[1]), 2.0, 1e-3);
+    }
+    expect_no_leftovers(glb);
+    // Attached again, with another pattern between.
+    PathDetail other = small_detail();
+    other.depth = 0.25;
+    EXPECT_EQ(attach(model_of(attach(model_of(glb), {}, other))), glb);
+}
+
 TEST(Gltf, AttachingWithoutFallbackTakesTheOldOneAway) {
     const std::string text = rich_document().dump();
     const Model model = model_of(Bytes(text.begin(), text.end()));

@@ -175,6 +175,24 @@ void add_residual_cases(std::map<int, Bytes>& cases) {
     cases[2027] = broken_residual([](json& d, json&) { d["samplers"][0]["wrapS"] = 33071; });
 }
 
+// A document whose first primitive has the derivatives of its positions, changed by `change`.
+Bytes broken_frames(const std::function<void(json& document, json& attributes)>& change) {
+    return broken_document([&](json& d) {
+        json& attributes = d["meshes"][0]["primitives"][0]["attributes"];
+        d["accessors"] = json::array();
+        for (const char* name : {"POSITION", "_BURIN_DU", "_BURIN_DV", "_BURIN_DUU", "_BURIN_DUV", "_BURIN_DVV"}) {
+            attributes[name] = d["accessors"].size();
+            d["accessors"].push_back({{"componentType", 5126}, {"type", "VEC3"}, {"count", 3}});
+        }
+        change(d, attributes);
+    });
+}
+
+void add_frame_cases(std::map<int, Bytes>& cases) {
+    cases[2040] = broken_frames([](json&, json& attributes) { attributes.erase("_BURIN_DUV"); });
+    cases[2041] = broken_frames([](json& d, json&) { d["accessors"].back()["type"] = "VEC4"; });
+}
+
 void add_grid_cases(std::map<int, Bytes>& cases) {
     cases[3001] = broken_cell(0, 1, [](CellCode& c) { c.first_reference = 500; });
     cases[3002] = broken_cell(4, 3, [](CellCode& c) { c.first_reference = 1; });
@@ -242,6 +260,7 @@ std::map<int, Bytes> all_cases() {
     add_container_cases(cases);
     add_extension_cases(cases);
     add_view_cases(cases);
+    add_frame_cases(cases);
     add_residual_cases(cases);
     add_grid_cases(cases);
     add_element_cases(cases);

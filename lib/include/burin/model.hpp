@@ -25,6 +25,7 @@
 #include <burin/bake.hpp>
 #include <burin/format/extension.hpp>
 #include <burin/format/texels.hpp>
+#include <burin/frames.hpp>
 #include <burin/geometry.hpp>
 #include <burin/residual.hpp>
 #include <burin/result.hpp>
@@ -90,7 +91,8 @@ struct MaterialTarget {
 Result<MaterialTarget> find_material(const Model& model, const AttachOptions& options = {});
 
 // The document with the pattern on one material, as binary glTF 2.0 that stands alone.
-// Adds: two bufferViews with the textures (32-bit little-endian words, row-major), the extension
+// Adds: on primitives that are not flat the vertex attributes kFrameAttributes (frames.hpp), which tell how the surface
+// bends and stretches, in the space of the mesh; two bufferViews with the textures (32-bit little-endian words, row-major), the extension
 // BURIN_materials_path_detail on the material (listed in extensionsUsed only), and the fallback as PNG in the
 // core material: normalTexture, and occlusionTexture unless the material has one. The residual, if there is one, becomes
 // the extension's residualTexture, with a sampler that wraps like the pattern; where the fallback has no normal map, it is
@@ -116,6 +118,7 @@ struct Primitive {
                              // zero where the file has none
     std::vector<std::uint32_t> indices;  // three per triangle, each below the vertex count
     int material = 0;                    // index into Asset::materials
+    std::vector<SurfaceFrame> frames{};  // one per vertex, world space; none where the file has none
 };
 
 struct MaterialInfo {

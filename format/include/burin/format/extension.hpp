@@ -11,6 +11,7 @@
 // Meaning of each property: BURIN_materials_path_detail/README.md. The name goes into `extensionsUsed` only.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,9 @@ namespace burin {
 
 inline constexpr std::string_view kPathDetailExtension = "BURIN_materials_path_detail";
 inline constexpr int kPathDetailVersion = 1;
+// Vertex attributes of primitives with the material: derivatives of the position by u and v, SPECIFICATION.md section 14.
+inline constexpr std::array<const char*, 5> kFrameAttributes = {"_BURIN_DU", "_BURIN_DV", "_BURIN_DUU", "_BURIN_DUV",
+                                                                "_BURIN_DVV"};
 
 struct PathDetail {
     int version = kPathDetailVersion;
