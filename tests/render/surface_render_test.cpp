@@ -60,7 +60,7 @@ TEST(RenderDepth, ASheetStandsInTheGroovesThatAreDeeper) {
     asset.primitives = {square(0.0f, 0), square(float(-kDepth / 4), 1)};
     for (const bool orthographic : {false, true}) {
         RenderOptions options;
-        options.width = options.height = 200;
+        options.width = options.height = 100;
         options.samples = 1;
         options.shadows = false;
         options.light.ambient = 1.0;
@@ -74,7 +74,7 @@ TEST(RenderDepth, ASheetStandsInTheGroovesThatAreDeeper) {
         ASSERT_TRUE(without.ok() && with.ok());
         EXPECT_EQ(dark_share(*without), 0.0) << orthographic;
         const double square_share = 1.0 / (1.03 * 1.03);
-        EXPECT_NEAR(dark_share(*with), 0.3 * square_share, 0.01) << orthographic;
+        EXPECT_NEAR(dark_share(*with), 0.3 * square_share, 0.015) << orthographic;
     }
 }
 
@@ -111,7 +111,7 @@ TEST(RenderOutline, OfABallIsThatOfItsGround) {
     SKIP_WITHOUT_CONTEXT(picture);
     ASSERT_TRUE(picture.ok()) << picture.error().message;
     std::size_t seen = 0;
-    for (std::size_t i = 0; i < picture->texels.size(); i += 4) seen += picture->texels[i + 1] > 0;
+    for (std::size_t i = 0; i < picture->texels.size(); i += 4) seen += 2 * picture->texels[i + 1] > picture->texels[i];
     const double radius = std::sqrt(double(seen) / 3.14159265) / (256 / 2 / 1.03);
     // The ray runs 0.4 m over the ball, where the second order itself is 0.003 m off.
     EXPECT_NEAR(radius, 1.0 - kGround, 0.009);
