@@ -21,7 +21,7 @@ def draw(build, folder, name, options):
     """A picture of 128 colours, which keeps it small."""
     drawn = os.path.join(folder, name + ".png")
     run(os.path.join(build, "cli", "burin"), "render", os.path.join(folder, name + ".glb"), "--output", drawn,
-        "--size", "400x300", "--samples", "16", *options.split())
+        "--size", "400x300", "--antialiasing", "points", "--samples", "16", *options.split())
     kept = os.path.join(HERE, "pictures", name + ".png")
     run("convert", drawn, "-colors", "128", "-strip", "PNG8:" + kept)
 
@@ -34,7 +34,7 @@ def entry(line):
 
 After {source}: {int(elements)} lines and curves, {int(textures):,} bytes of textures; the file has {int(file):,} bytes with mesh and fallback.
 
-    burin render {name}.glb --output {name}.png --size 400x300 {options}
+    burin render {name}.glb --output {name}.png --size 400x300 --antialiasing points --samples 16 {options}
 
 """
 
