@@ -64,11 +64,11 @@ struct RenderOptions {
     bool correct_depth = false;
     // Per pixel, [1, 256], rounded up to a square number. Four come first; the rest go where those or their
     // neighbours differ by a step of the picture's 8 bits.
-    int samples = 16;
+    int samples = 4;
     Antialiasing antialiasing = Antialiasing::regions;
     // With regions: rays per sample where features meet, 4 or 16; [4, 64], rounded up to an even square. With points every
     // sample is one ray.
-    int rays = 16;
+    int rays = 4;
     // Everything in one run of the shader, as an engine does it. Otherwise the rays of `rays` are runs of their own, which
     // suits a CPU better: OSMesa ends a shader after 65535 turns of its loops.
     bool one_run = false;
