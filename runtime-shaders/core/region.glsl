@@ -44,8 +44,9 @@ uint burin_end_mask(BurinEnd end, BurinFootprint footprint, vec2 place, float re
     float lit = dot(light_way, end.inward);
     float tip = plain ? abs(lean) * reach : (end.priority == BURIN_PRIORITY_NONE ? 0.0f : reach);
     float back = max(max(seen, lit), 0.0f) + abs(seen) + (plain ? tip : 0.0f) + 1.0e-3f * reach;
-    float ahead = abs(seen) + tip + 1.0e-3f * reach;
-    vec2 side = end.normal * (reach + abs(dot(way, end.normal)));
+    // The end of a ridge throws a shadow of its own.
+    float ahead = abs(seen) + tip + (plain ? 0.0f : max(-lit, 0.0f)) + 1.0e-3f * reach;
+    vec2 side = end.normal * (reach + abs(dot(way, end.normal)) + (plain ? 0.0f : abs(dot(light_way, end.normal))));
     vec2 a = end.vertex - place + end.inward * back;
     vec2 b = end.vertex - place - end.inward * ahead;
     vec2 p = burin_to_pixel(footprint, a - side);
@@ -105,10 +106,10 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     float high = max(style.level - cell.highest, cell.lowest - style.level);
     BurinReachOf reach;
     reach.spread = length(ray.slope) * high;
-    float shadow = shadows ? max(style.level - cell.highest, 0.0f) : 0.0f;
+    float shadow = shadows ? max(style.level - cell.highest, 0.0f) * length(light_slope) : 0.0f;
     vec2 place = ray.slope * style.level;
-    reach.along = footprint.radius + reach.spread;
-    reach.across = wide + footprint.radius + reach.spread + shadow * length(light_slope);
+    reach.along = footprint.radius + reach.spread + shadow;
+    reach.across = wide + footprint.radius + reach.spread + shadow;
     BurinEnd start = burin_end(e, true);
     BurinEnd end = burin_end(e, false);
     vec2 lean = vec2(burin_end_lean(start, e.t0), burin_end_lean(end, e.t2));
@@ -119,8 +120,9 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     vec2 limits = stretch.limits;
     if (limits.y < limits.x) return;
     stretch.room = footprint.radius;
-    vec2 way = ray.slope * max(cell.lowest - cell.highest, 0.0f);
-    vec2 light_way = light_slope * (shadows ? max(cell.lowest - cell.highest, 0.0f) : 0.0f);
+    float relief = burin_map.drop_range.y - burin_map.drop_range.x;
+    vec2 way = ray.slope * relief;
+    vec2 light_way = light_slope * (shadows ? relief : 0.0f);
     region.special = region.special | burin_end_mask(start, footprint, place, wide, lean.x, way, light_way) |
                      burin_end_mask(end, footprint, place, wide, lean.y, way, light_way);
     uint mask = 0u;
@@ -143,13 +145,17 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     // A ray that runs along a bend for long meets it elsewhere than the stripes are.
     float curvature = abs(burin_bend(e, stretch, ray.slope, light_slope).curvature);
     float waves = e.waved ? abs(e.argument.y) * (reach.spread + footprint.radius) / max(e.extent, 1.0e-20f) : 0.0f;
-    if (max(curvature * reach.spread, waves) > BURIN_MOST_BEND) region.special = 0xffffu;
+    // And light that runs along a taper passes a profile of another size.
+    float taper = max(abs(e.scales.y - e.scales.x), abs(e.scales.w - e.scales.z)) / max(e.extent, 1.0e-20f);
+    float grown = taper * (reach.spread + length(light_way)) / min(stretch.scales.x, stretch.scales.y);
+    if (max(max(curvature * reach.spread, waves), grown) > BURIN_MOST_BEND) region.special = 0xffffu;
     // Features over each other; thin ones hardly are.
     float area = region.strip_area;
     region.strip_area = 0.0f;
     if (area * region.covered_area > BURIN_LEAST_AREA) region.special = region.special | (region.covered & mask);
     region.covered = region.covered | mask;
     region.covered_area = region.covered_area + area;
+    if (area > 0.0f) ++region.elements;
 }
 
 // Corners of the box, in cells, that the pixel passes between the drops.
@@ -163,9 +169,10 @@ vec4 burin_region_box(BurinRay ray, BurinFootprint footprint, vec2 drops) {
     return vec4(floor(low.x), floor(low.y), floor(high.x), floor(high.y));
 }
 
-// `ground` is the colour of lit ground. The ray passes the object surface at the pixel's centre. Where fullness is 1 or
-// more the pixel spans too much to be looked through, and the rest says nothing.
-BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, vec3 ground) {
+// `ground` is the colour of lit ground, `ground_drop` the drop of the ground around. The ray passes the object surface at the
+// pixel's centre. Where fullness is 1 or more the pixel spans too much to be looked through, and the rest says nothing.
+BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, vec3 ground,
+                         float ground_drop) {
     BurinRegion region;
     region.color = vec3(0.0f, 0.0f, 0.0f);
     region.ground = ground;
@@ -173,16 +180,28 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
     region.special = 0u;
     region.covered_area = 0.0f;
     region.strip_area = 0.0f;
+    region.elements = 0;
     vec4 box = burin_region_box(ray, footprint, burin_map.drop_range);
+    region.fullness = (box.z - box.x + 1.0f) * (box.w - box.y + 1.0f) / float(BURIN_MAX_REGION_CELLS);
+    if (region.fullness > 1.0f) return region;
+    // What rises above the ground throws shadows as far as this.
+    vec4 wide = box;
+    vec2 thrown = light_slope * (shadows ? max(ground_drop - burin_map.drop_range.x, 0.0f) : 0.0f);
+    thrown = thrown * vec2(burin_map.cells) / burin_map.size;
+    wide = vec4(floor(box.x - max(thrown.x, 0.0f)), floor(box.y - max(thrown.y, 0.0f)),
+                floor(box.z - min(thrown.x, 0.0f)), floor(box.w - min(thrown.y, 0.0f)));
+    vec2 last = vec2(burin_map.cells - ivec2(1, 1));
+    bool inside = box.x >= 0.0f && box.y >= 0.0f && box.z <= last.x && box.w <= last.y;
+    if (burin_map.repeats == 0) {
+        if (!inside) {
+            region.special = 0xffffu;
+            return region;
+        }
+        wide = vec4(max(wide.x, 0.0f), max(wide.y, 0.0f), min(wide.z, last.x), min(wide.w, last.y));
+    }
+    if ((wide.z - wide.x + 1.0f) * (wide.w - wide.y + 1.0f) <= float(BURIN_MAX_REGION_CELLS)) box = wide;
     ivec2 low = ivec2(int(box.x), int(box.y));
     ivec2 sides = ivec2(int(box.z), int(box.w)) - low + ivec2(1, 1);
-    bool inside = low.x >= 0 && low.y >= 0 && low.x + sides.x <= burin_map.cells.x && low.y + sides.y <= burin_map.cells.y;
-    region.fullness = float(sides.x * sides.y) / float(BURIN_MAX_REGION_CELLS);
-    if (region.fullness > 1.0f) return region;
-    if (burin_map.repeats == 0 && !inside) {
-        region.special = 0xffffu;
-        return region;
-    }
     uint seen[BURIN_MAX_REGION_ELEMENTS];
     vec2 places[BURIN_MAX_REGION_ELEMENTS];
     int count = 0;
@@ -206,7 +225,9 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
             }
             if (known) continue;
             if (count == BURIN_MAX_REGION_ELEMENTS) {
-                region.fullness = 1.0f;
+                // Too many to tell apart: from near by rays, from far away by the prefilter.
+                region.special = 0xffffu;
+                if (region.fullness > 0.4f) region.fullness = 1.0f;
                 return region;
             }
             seen[count] = reference;
@@ -215,7 +236,7 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
             burin_add_element(e, cell, ray, footprint, light_slope, shadows, region);
         }
     }
-    region.fullness = max(region.fullness, float(count) / float(BURIN_MAX_REGION_ELEMENTS));
+    region.fullness = max(region.fullness, float(region.elements) / float(BURIN_MAX_REGION_ELEMENTS));
     // Where a map ends, its ground stands against the light that falls into a feature.
     vec2 light_way = abs(light_slope) * ((burin_map.drop_range.y - burin_map.drop_range.x) * (shadows ? 1.0f : 0.0f));
     vec2 lowest = ray.origin + ray.slope * burin_map.drop_range.y;

@@ -12,6 +12,7 @@ struct BurinRegion {
     uint special;  // places that stripes do not describe: two features over each other, ends
     float covered_area;  // sum of what the elements so far cover
     float strip_area;    // the same of the element at hand
+    int elements;        // that show in the pixel
     float fullness;      // how much of what a pixel may span it does: from 1 on there is no answer
 };
 

@@ -90,7 +90,8 @@ vec4 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
         float level = burin_cell(index).level;
         rest_slopes = fetch_residual(part_ray.origin + part_ray.slope * level, uv_along_x, uv_along_y);
         vec3 ground = burin_facet_color(vec3(0.0, 0.0, 1.0), 0u, light_above ? 1.0 : 0.0);
-        BurinRegion region = burin_region(part_ray, burin_footprint(x, y), light_slope, shadows != 0 && light_above, ground);
+        BurinRegion region = burin_region(part_ray, burin_footprint(x, y), light_slope, shadows != 0 && light_above, ground,
+                                            level);
         vec3 found = ground + region.color;
         // From a pixel that spans many features to one that spans too many: the prefilter takes over by degrees.
         float far = smoothstep(0.4, 0.9, region.fullness);
