@@ -163,6 +163,7 @@ TEST(RenderAsset, RegionsAreTheMeanOfRays) {
             options.camera.zoom = elevation > 20.0 ? 3.0 : 8.0;  // no border of the plane: that is the mesh's, not the pattern's
             options.backend = backend();
             options.samples = 1;
+            options.rays = 16;
             const Asset plane = plane_with(prepare(pattern));
             const auto regions = render_asset(plane, options);
             SKIP_WITHOUT_CONTEXT(regions);
