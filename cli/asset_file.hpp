@@ -11,6 +11,8 @@
 
 #include <gl/render.hpp>
 
+#include "report.hpp"
+
 namespace burin::cli {
 
 class Arguments;
@@ -37,5 +39,8 @@ Result<HeightMap> read_map(const std::string& path, const Arguments& arguments);
 
 // What --backend names.
 Backend backend_of(const Arguments& arguments);
+
+// Vendor, renderer and version of that backend, as a line of the report.
+void add_renderer(Report& report, const Arguments& arguments);
 
 }  // namespace burin::cli

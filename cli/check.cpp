@@ -85,6 +85,7 @@ ExitCode run_check(const Arguments& arguments) {
                       {"height", "height", std::int64_t{map->image.height}, ""}});
     add_heights(report, figures);
     add_edges(report, compare_edges(*heights, map->image, wrap));
+    if (arguments.text("--with") == "shader") add_renderer(report, arguments);
     if (bounded) report.add({"passed", "within --max-rms", passed, ""});
     return print_answer(arguments, report, passed ? ExitCode::done : ExitCode::no);
 }

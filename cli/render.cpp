@@ -144,6 +144,12 @@ Backend backend_of(const Arguments& arguments) {
     return arguments.text("--backend") == "egl" ? Backend::egl : Backend::osmesa;
 }
 
+void add_renderer(Report& report, const Arguments& arguments) {
+    // The drawing went well, so that a backend that is not there now is no reason to fail.
+    const auto text = describe_backend(backend_of(arguments));
+    report.add({"renderer", "renderer", text ? *text : text.error().message, ""});
+}
+
 ExitCode run_render(const Arguments& arguments) {
     const bool top = arguments.flag("--top");
     if (const Status checked = check_output(arguments.text("--output"), top); !checked)
@@ -162,6 +168,7 @@ ExitCode run_render(const Arguments& arguments) {
     report.add_group("pixels", "pixels",
                      {{"width", "width", std::int64_t{size->width}, ""},
                       {"height", "height", std::int64_t{size->height}, ""}});
+    add_renderer(report, arguments);
     return write_and_print(arguments, report, {{"--output", output, write}});
 }
 
