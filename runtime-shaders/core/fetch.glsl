@@ -51,6 +51,13 @@ uvec4 burin_reference_texel(int index) {
     return fetch_data(burin_map.first_list + index / BURIN_REFS_PER_TEXEL);
 }
 
+// Reference i of a cell's list. `texel` is the caller's from one i to the next, so that each is fetched once.
+uint burin_listed(BurinCell cell, int i, BURIN_INOUT(uvec4) texel) {
+    int index = cell.first + i;
+    if (i == 0 || index % BURIN_REFS_PER_TEXEL == 0) texel = burin_reference_texel(index);
+    return burin_reference(texel, index);
+}
+
 // Exact in float: 20 bits of code, a power of two, and whole tiles.
 vec2 burin_vertex_uv(uint x, uint y) {
     return vec2(float(x & 0xfffffu), float(y & 0xfffffu)) * (1.0f / float(BURIN_COORDINATE_STEPS)) - vec2(0.5f, 0.5f);

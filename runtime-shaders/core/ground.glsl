@@ -40,8 +40,7 @@ BurinStepLine burin_step_line(BurinCell cell, BurinRay ray, vec2 centre, vec2 a,
     uvec4 texel = uvec4(0u, 0u, 0u, 0u);
     for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
         if (i >= cell.count) break;
-        if (i == 0 || (cell.first + i) % BURIN_REFS_PER_TEXEL == 0) texel = burin_reference_texel(cell.first + i);
-        uint reference = burin_reference(texel, cell.first + i);
+        uint reference = burin_listed(cell, i, texel);
         BurinElement e = burin_element(reference, ray.origin, centre);
         BurinStyle style = burin_style(e.style);
         if (!style.stepped) continue;

@@ -185,11 +185,10 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
     region.fullness = (box.z - box.x + 1.0f) * (box.w - box.y + 1.0f) / float(BURIN_MAX_REGION_CELLS);
     if (region.fullness > 1.0f) return region;
     // What rises above the ground throws shadows as far as this.
-    vec4 wide = box;
     vec2 thrown = light_slope * (shadows ? max(ground_drop - burin_map.drop_range.x, 0.0f) : 0.0f);
     thrown = thrown * vec2(burin_map.cells) / burin_map.size;
-    wide = vec4(floor(box.x - max(thrown.x, 0.0f)), floor(box.y - max(thrown.y, 0.0f)),
-                floor(box.z - min(thrown.x, 0.0f)), floor(box.w - min(thrown.y, 0.0f)));
+    vec4 wide = vec4(floor(box.x - max(thrown.x, 0.0f)), floor(box.y - max(thrown.y, 0.0f)),
+                     floor(box.z - min(thrown.x, 0.0f)), floor(box.w - min(thrown.y, 0.0f)));
     vec2 last = vec2(burin_map.cells - ivec2(1, 1));
     bool inside = box.x >= 0.0f && box.y >= 0.0f && box.z <= last.x && box.w <= last.y;
     if (burin_map.repeats == 0) {
@@ -214,8 +213,7 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
         uvec4 texel = uvec4(0u, 0u, 0u, 0u);
         for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
             if (i >= cell.count) break;
-            if (i == 0 || (cell.first + i) % BURIN_REFS_PER_TEXEL == 0) texel = burin_reference_texel(cell.first + i);
-            uint reference = burin_reference(texel, cell.first + i);
+            uint reference = burin_listed(cell, i, texel);
             BurinElement e = burin_element(reference, ray.origin, centre);
             // Cells share elements; each copy of one counts once.
             bool known = false;

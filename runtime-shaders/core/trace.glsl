@@ -168,8 +168,7 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
         uvec4 texel = uvec4(0u, 0u, 0u, 0u);
         for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
             if (i >= cell.count) break;
-            if (i == 0 || (cell.first + i) % BURIN_REFS_PER_TEXEL == 0) texel = burin_reference_texel(cell.first + i);
-            burin_visit(burin_reference(texel, cell.first + i), hit.ray, hit.centre, stretch, ground, pass);
+            burin_visit(burin_listed(cell, i, texel), hit.ray, hit.centre, stretch, ground, pass);
         }
         if (pass.add < pass.ground) {
             at_add = true;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cpp/glsl_shim.hpp"
+#include "cpp/prefilter.hpp"
 #include "cpp/drop_range.hpp"
 #include "layout.h"
 
@@ -60,6 +61,7 @@ class Core {
 #include "core/stripe.glsl"
 #include "core/region.glsl"
 #include "core/far.glsl"
+    static_assert(BURIN_MAX_CLASSES == Prefilter::kMostClasses);
 };
 
 Core make_core(const PackedTextures& textures, const PathDetail& detail) {

@@ -57,6 +57,15 @@ GLuint make_texture(const Functions& gl, GLint format, GLenum layout, int width,
     return name;
 }
 
+// The bound texture, from now on with mipmaps and linear filters, wrapping as the pattern does.
+void filter_smoothly(const Functions& gl, GLenum target, bool repeat) {
+    gl.GenerateMipmap(target);
+    gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        gl.TexParameteri(target, side, repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+}
+
 // A residual, filtered as its sampler says; one texel that is never asked where there is none.
 GLuint make_residual(const Functions& gl, const RgbaImage& picture, bool repeat) {
     const std::vector<std::uint8_t> none(4, 128);
@@ -67,11 +76,7 @@ GLuint make_residual(const Functions& gl, const RgbaImage& picture, bool repeat)
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, empty ? 1 : picture.width, empty ? 1 : picture.height, 0, GL_RGBA,
                   GL_UNSIGNED_BYTE, empty ? none.data() : picture.texels.data());
-    gl.GenerateMipmap(GL_TEXTURE_2D);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-        gl.TexParameteri(GL_TEXTURE_2D, side, repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    filter_smoothly(gl, GL_TEXTURE_2D, repeat);
     return name;
 }
 
@@ -90,11 +95,7 @@ GLuint make_prefilter(const Functions& gl, const Prefilter& filter, bool repeat)
     gl.BindTexture(GL_TEXTURE_2D_ARRAY, name);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     gl.TexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_RGBA16F, columns, rows, GLsizei(layers), 0, GL_RGBA, GL_FLOAT, texels.data());
-    gl.GenerateMipmap(GL_TEXTURE_2D_ARRAY);
-    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-        gl.TexParameteri(GL_TEXTURE_2D_ARRAY, side, repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    filter_smoothly(gl, GL_TEXTURE_2D_ARRAY, repeat);
     return name;
 }
 
@@ -124,7 +125,7 @@ std::string fragment_text(Stage stage, int function_kinds) {
     if (stage == Stage::rays) return text + shader_text::rays_frag;
     if (stage == Stage::top) return text + shader_text::top_frag;
     for (const char* part : {shader_text::curved, shader_text::frame, shader_text::shade, shader_text::footprint, shader_text::stripe,
-                             shader_text::region, shader_text::far, shader_text::far_fetch, shader_text::surface_frag})
+                             shader_text::region, shader_text::far, shader_text::far_fetch, shader_text::pixel_filter, shader_text::surface_frag})
         text += part;
     return text;
 }

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gl/pixel_filter.h"
 #include "gl/program.hpp"
 
 namespace burin {
@@ -411,11 +412,8 @@ class WantedTexture {
     GLuint name_ = 0;
 };
 
-// pixel_filter of surface.frag.
-enum class PixelFilter { rays, regions, marked, quarters };
-
-void set_filter(const gl::Program& program, PixelFilter filter, int side = 1) {
-    program.set("pixel_filter", int(filter));
+void set_filter(const gl::Program& program, int filter, int side = 1) {
+    program.set("pixel_filter", filter);
     program.set("side", side);
 }
 
@@ -430,7 +428,7 @@ void add_marked_rays(const gl::Functions& gl, const gl::Program& program, const 
     for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = std::uint8_t(pixels[4 * i + 3]);
     if (std::all_of(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark == 0; })) return;
     wanted.set(marks, options.width, options.height);
-    set_filter(program, PixelFilter::quarters);
+    set_filter(program, FILTER_QUARTERS);
     const int side = ray_side(options);
     for (int k = 0; k < side * side; ++k) {
         const double x = (k % side + 0.5) / side - 0.5, y = (k / side + 0.5) / side - 0.5;
@@ -451,9 +449,9 @@ std::vector<float> draw_sample(const gl::Functions& gl, const gl::Program& progr
     const bool regions = options.antialiasing == Antialiasing::regions;
     const bool marked = regions && !options.one_run;
     if (regions)
-        set_filter(program, marked ? PixelFilter::marked : PixelFilter::regions, ray_side(options));
+        set_filter(program, marked ? FILTER_MARKED : FILTER_REGIONS, ray_side(options));
     else
-        set_filter(program, PixelFilter::rays);
+        set_filter(program, FILTER_RAYS);
     draw_pass(gl, program, asset, scene);
     std::vector<float> pixels = target.read(0);
     if (marked) add_marked_rays(gl, program, asset, scene, target, wanted, options, pixels);

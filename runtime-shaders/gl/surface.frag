@@ -4,14 +4,7 @@ uniform vec3 eye;           // of a perspective camera
 uniform vec3 view;          // direction of an orthographic one; zero for perspective
 uniform int has_detail;
 uniform int shadows;
-// How the pixel is filtered. RAYS: side x side rays. REGIONS: as a whole, and by rays only where that does not suffice.
-// MARKED: as REGIONS without the rays; alpha names the quarters that want them, a bit each. QUARTERS: one ray, at
-// ray_place, where `wanted` has the bit of the quarter that it lies in. The last two are one picture in several passes.
-#define FILTER_RAYS 0
-#define FILTER_REGIONS 1
-#define FILTER_MARKED 2
-#define FILTER_QUARTERS 3
-uniform int pixel_filter;
+uniform int pixel_filter;   // pixel_filter.h
 uniform int side;           // rays per side of the pixel, 1 to 4
 uniform vec2 ray_place;     // within the pixel, -0.5 to 0.5
 uniform float pixel_part;   // side of what is filtered, in pixels: below 1 where several pictures are averaged
