@@ -44,6 +44,14 @@
 #define BURIN_START_STEPS 1021
 #define BURIN_START_SPREAD 1361.0
 
+// ---- table of chart borders, RGBA32UI: borders of BORDER_TEXELS each, then two words per cell (first reference, count), then one
+// word per reference; each part starts on a texel. Numbers are the bits of 32-bit floats.
+//   begin, end | the other side's place of begin, step there per metre away from the edge | step to step, row by row |
+//   metres per metre away from the edge, angle, chart, chart beyond (the last two are integers)
+#define BURIN_BORDER_TEXELS 4
+#define BURIN_MAX_BORDERS 1048576
+#define BURIN_MAX_CHART_CELLS 1024  // per side
+
 // ---- data texture: RGBA32UI; sections elements, styles, profiles, materials, lists, functions, each from a texel on
 // Element, texel A:
 //   x: 0-19 p0.u, 20-31 clip angle at the start      y: 0-19 p0.v, 20-31 clip angle at the end

@@ -226,6 +226,50 @@ void read_residual(const json& extension, PathDetail& detail, Reporter& reporter
                         path + "/scale");
 }
 
+bool read_pair(const json& object, const char* name, double low, std::array<double, 2>& out, Reporter& reporter) {
+    const std::string path = std::string("/charts/") + name;
+    const json* pair = find_property(object, name, true, "/charts", reporter);
+    if (pair == nullptr) return false;
+    const bool numbers = pair->is_array() && pair->size() == 2 && (*pair)[0].is_number() && (*pair)[1].is_number();
+    if (!numbers) {
+        reporter.report(2005, std::string(name) + " is " + value_text(*pair) + ", two numbers are needed", path);
+        return false;
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+        out[i] = (*pair)[i].get<double>();
+        if (out[i] >= low && out[i] <= BURIN_MAX_LENGTH) continue;
+        reporter.report(2043, std::string(name) + " is " + number_text(out[i]) + ", range [" + number_text(low) + ", 1e9]", path);
+        return false;
+    }
+    return true;
+}
+
+void read_charts(const json& extension, PathDetail& detail, Reporter& reporter) {
+    if (!extension.contains("charts")) return;
+    ChartLayout& charts = detail.charts;
+    const json* table = read_texture(extension, "charts", charts.view, charts.width, charts.height, reporter);
+    if (table == nullptr) return;
+    const struct {
+        const char* name;
+        std::int64_t most;
+        int ChartLayout::*member;
+    } rows[] = {{"borders", BURIN_MAX_BORDERS, &ChartLayout::borders},
+                {"columns", BURIN_MAX_CHART_CELLS, &ChartLayout::columns},
+                {"rows", BURIN_MAX_CHART_CELLS, &ChartLayout::rows}};
+    bool complete = charts.width > 0 && charts.height > 0;
+    for (const auto& row : rows) {
+        std::int64_t number = 0;
+        if (read_count(*table, "/charts", row.name, 1, row.most, 2043, number, reporter)) charts.*row.member = static_cast<int>(number);
+        else complete = false;
+    }
+    complete = read_pair(*table, "origin", -BURIN_MAX_LENGTH, charts.origin, reporter) && complete;
+    complete = read_pair(*table, "cell", BURIN_MIN_LENGTH, charts.cell, reporter) && complete;
+    const std::size_t texels = static_cast<std::size_t>(charts.width) * static_cast<std::size_t>(charts.height);
+    if (complete && charts.first_reference() > texels)
+        reporter.report(2044, "borders and cells take " + std::to_string(charts.first_reference()) + " texels, the table has " +
+                                  std::to_string(texels), "/charts");
+}
+
 }  // namespace
 
 bool read_integer(const json& value, std::int64_t low, std::int64_t high, std::int64_t& out) {
@@ -262,6 +306,7 @@ bool read_extension(const json& extension, PathDetail& detail, Reporter& reporte
         read_texture(extension, "data", detail.data_view, detail.data_width, detail.data_height, reporter);
     if (data != nullptr) read_sections(*data, detail, reporter);
     read_residual(extension, detail, reporter);
+    read_charts(extension, detail, reporter);
     return reporter.errors() == errors;
 }
 
@@ -287,6 +332,11 @@ std::string write_extension(const PathDetail& d) {
     if (d.residual_texture >= 0) {
         extension["residualTexture"] = {
             {"index", d.residual_texture}, {"texCoord", d.tex_coord}, {"scale", d.residual_scale}};
+    }
+    if (d.charts.borders > 0) {
+        const ChartLayout& c = d.charts;
+        extension["charts"] = {{"bufferView", c.view}, {"width", c.width}, {"height", c.height}, {"borders", c.borders},
+                               {"columns", c.columns}, {"rows", c.rows}, {"origin", c.origin}, {"cell", c.cell}};
     }
     return extension.dump();
 }

@@ -2,6 +2,8 @@
 #include <burin/format/validate.hpp>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <set>
 
 #include "container.hpp"
@@ -123,6 +125,25 @@ void check_residual(const json& document, const json& extension, const PathDetai
     check_sampler(document, *texture, detail.repeat, reporter);
 }
 
+// Lists stay inside the table and name borders that are there; borders are finite.
+void check_charts(const ChartLayout& charts, const std::vector<std::uint32_t>& words, Reporter& reporter) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(charts.borders); ++i)
+        for (std::size_t k = 0; k < 14; ++k)
+            if (!std::isfinite(std::bit_cast<float>(words[16 * i + k]))) {
+                reporter.report(2046, "number " + std::to_string(k) + " of border " + std::to_string(i) + " is not finite", "/charts");
+                break;
+            }
+    const std::size_t cells = static_cast<std::size_t>(charts.columns) * static_cast<std::size_t>(charts.rows);
+    const std::size_t references = 4 * charts.first_reference(), room = words.size() - references;
+    for (std::size_t i = 0; i < cells; ++i) {
+        const std::uint64_t first = words[4 * charts.first_cell() + 2 * i], count = words[4 * charts.first_cell() + 2 * i + 1];
+        bool good = first + count <= room;
+        for (std::uint64_t k = first; good && k < first + count; ++k)
+            good = words[references + k] < static_cast<std::uint32_t>(charts.borders);
+        if (!good) reporter.report(2045, "the list of cell " + std::to_string(i) + " leads out of the table", "/charts");
+    }
+}
+
 void check_material(const json& document, const json& extension, Buffers& buffers, Reporter& reporter) {
     PathDetail detail;
     const std::string prefix = reporter.prefix();
@@ -136,7 +157,11 @@ void check_material(const json& document, const json& extension, Buffers& buffer
         buffers.view(detail.grid_view, 8 * texels(detail.grid_width, detail.grid_height), prefix + "/grid");
     const auto data =
         buffers.view(detail.data_view, 16 * texels(detail.data_width, detail.data_height), prefix + "/data");
+    const bool charted = detail.charts.borders > 0;
+    const auto charts = charted ? buffers.view(detail.charts.view, 16 * texels(detail.charts.width, detail.charts.height), prefix + "/charts")
+                                : std::nullopt;
     reporter.set_prefix(prefix);
+    if (charts) check_charts(detail.charts, words_from_bytes(*charts), reporter);
     if (!grid || !data) return;
     check_textures({detail.grid_width, detail.grid_height, words_from_bytes(*grid), detail.data_width,
                     detail.data_height, words_from_bytes(*data), detail.sections},
@@ -178,9 +203,26 @@ void check_frames(const json& document, const json& primitive, const std::string
     }
 }
 
+// Where the material has borders, every vertex says in which chart it lies.
+void check_chart_numbers(const json& document, const json& primitive, bool charted, const std::string& place, Reporter& reporter) {
+    constexpr std::int64_t kFloat = 5126;
+    const json* accessor = accessor_of(document, primitive, kChartAttribute);
+    const auto attributes = primitive.find("attributes");
+    const bool named = attributes != primitive.end() && attributes->is_object() && attributes->contains(kChartAttribute);
+    if (!named && !charted) return;
+    const json* positions = accessor_of(document, primitive, "POSITION");
+    std::int64_t type = 0;
+    const bool right = accessor != nullptr && positions != nullptr && accessor->value("type", json()) == "SCALAR" &&
+                       accessor->contains("componentType") && read_integer((*accessor)["componentType"], 0, 1 << 16, type) &&
+                       type == kFloat && accessor->value("count", json()) == positions->value("count", json());
+    if (!right)
+        reporter.report(2042, std::string(kChartAttribute) + " must be SCALAR of FLOAT (5126), as many as positions", place);
+}
+
 // A primitive with the material needs the texture coordinates that the extension names.
+// `charted`: materials with borders.
 void check_primitives(const json& document, const std::map<std::size_t, std::string>& attribute_of_material,
-                      Reporter& reporter) {
+                      const std::set<std::size_t>& charted, Reporter& reporter) {
     const json* meshes = find_array(document, "meshes", reporter);
     if (meshes == nullptr) return;
     for (std::size_t m = 0; m < meshes->size(); ++m) {
@@ -198,6 +240,7 @@ void check_primitives(const json& document, const std::map<std::size_t, std::str
             if (wanted == attribute_of_material.end()) continue;
             const std::string place = "/meshes/" + std::to_string(m) + "/primitives/" + std::to_string(p);
             check_frames(document, primitive, place, reporter);
+            check_chart_numbers(document, primitive, charted.contains(static_cast<std::size_t>(material)), place, reporter);
             const auto attributes = primitive.find("attributes");
             if (attributes != primitive.end() && attributes->is_object() &&
                 attributes->contains(wanted->second))
@@ -219,6 +262,7 @@ void check_document(const Container& container, const ValidateOptions& options, 
     const json* materials = find_array(document, "materials", reporter);
     Buffers buffers(container, options, reporter);
     std::map<std::size_t, std::string> attribute_of_material;
+    std::set<std::size_t> charted;
     bool used_by_material = false;
     for (std::size_t i = 0; materials != nullptr && i < materials->size(); ++i) {
         const json* extension = find_extension((*materials)[i]);
@@ -228,6 +272,7 @@ void check_document(const Container& container, const ValidateOptions& options, 
         if (!named || read_integer((*extension)["texCoord"], 0, 255, tex_coord)) {
             attribute_of_material[i] = "TEXCOORD_" + std::to_string(tex_coord);
         }
+        if (extension->is_object() && extension->contains("charts")) charted.insert(i);
         used_by_material = true;
         reporter.set_prefix("/materials/" + std::to_string(i) + "/extensions/" +
                             std::string(kPathDetailExtension));
@@ -241,7 +286,7 @@ void check_document(const Container& container, const ValidateOptions& options, 
     if (!used_by_material) {
         reporter.report(2021, "no material has " + std::string(kPathDetailExtension), "/materials");
     }
-    check_primitives(document, attribute_of_material, reporter);
+    check_primitives(document, attribute_of_material, charted, reporter);
 }
 
 }  // namespace

@@ -56,6 +56,16 @@ Status read_textures(const ModelData& model, const std::string& where, MaterialI
     return Done{};
 }
 
+Status read_charts(const ModelData& model, const std::string& where, MaterialInfo& info) {
+    const ChartLayout& charts = info.detail.charts;
+    if (charts.borders == 0) return Done{};
+    const auto texels = static_cast<std::uint64_t>(charts.width) * static_cast<std::uint64_t>(charts.height);
+    Result<std::vector<std::uint32_t>> words = read_words(model, charts.view, 4 * texels, where + ".charts");
+    if (!words.ok()) return words.error();
+    info.charts = std::move(*words);
+    return Done{};
+}
+
 // Bytes of an image, wherever they lie.
 Result<std::vector<std::uint8_t>> image_bytes(const ModelData& model, std::uint64_t index, const std::string& where) {
     const Json& images = array_of(model.document, "images");
@@ -111,6 +121,7 @@ Result<MaterialInfo> read_material(const ModelData& model, std::size_t index) {
     info.detail = *detail;
     info.has_detail = true;
     if (Status status = read_textures(model, where, info); !status.ok()) return status.error();
+    if (Status status = read_charts(model, where, info); !status.ok()) return status.error();
     if (Status status = read_residual(model, where, info); !status.ok()) return status.error();
     return info;
 }
@@ -154,6 +165,7 @@ void transform_vertices(const Matrix& m, Primitive& primitive) {
             for (std::size_t r = 0; r < 3; ++r)
                 (*vector)[r] = static_cast<float>(m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2]);
         }
+    primitive.mirrored = sign < 0.0;
     // A mirror turns the faces over; their order keeps them counter-clockwise.
     if (sign < 0.0)
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
@@ -178,6 +190,15 @@ Status read_frames(const ModelData& model, const Json& item, Primitive& primitiv
         for (std::size_t k = 0; k < values.size(); ++k)
             *vectors[k] = {values[k][3 * i], values[k][3 * i + 1], values[k][3 * i + 2]};
     }
+    return Done{};
+}
+
+Status read_chart_numbers(const ModelData& model, const Json& item, Primitive& primitive) {
+    const auto accessor = attribute_of(item, kChartAttribute);
+    if (!accessor.has_value()) return Done{};
+    if (accessor_kind(array_of(model.document, "accessors")[*accessor]).components != 1)
+        return model_error(std::string(kChartAttribute) + " is not SCALAR");
+    primitive.charts = read_numbers(model, *accessor);
     return Done{};
 }
 
@@ -229,6 +250,7 @@ class AssetReader {
         const auto uvs = attribute_of(item, "TEXCOORD_" + std::to_string(set));
         primitive.uvs = uvs.has_value() ? read_numbers(model_, *uvs) : std::vector<float>(2 * count, 0.0f);
         if (Status status = read_frames(model_, item, primitive); !status.ok()) return status.error();
+        if (Status status = read_chart_numbers(model_, item, primitive); !status.ok()) return status.error();
         transform_vertices(transform, primitive);
         asset_.primitives.push_back(std::move(primitive));
         return Done{};

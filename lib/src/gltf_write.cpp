@@ -4,6 +4,7 @@
 #include <cassert>
 #include <optional>
 
+#include <burin/charts.hpp>
 #include <burin/image_io.hpp>
 
 #include "gltf_geometry.hpp"
@@ -123,6 +124,9 @@ class GlbWriter {
     // Derivatives of the position, on those primitives of a material that are not flat.
     void add_frames(std::size_t material, int tex_coord);
 
+    // Where the texture coordinates of a material are cut: the table, whose description goes to `detail`, and chart numbers.
+    Status add_charts(std::size_t material, PathDetail& detail);
+
     void use_extension(const std::string& name) {
         Json& used = document_["extensionsUsed"];
         if (!used.is_array()) used = Json::array();
@@ -203,8 +207,11 @@ class GlbWriter {
         return take_off(extension, "residualTexture", kResidualName);
     }
 
-    // Takes the derivatives off the primitives of a material.
-    void take_off_frames(std::size_t material);
+    // Takes the derivatives and the chart numbers off the primitives of a material.
+    void take_off_attributes(std::size_t material);
+
+    // One attribute of a primitive, a float per vertex.
+    void add_numbers(Json& primitive, const char* attribute, const std::vector<std::uint32_t>& values);
 
     const ModelData& model_;
     Json document_;
@@ -249,18 +256,19 @@ void GlbWriter::detach(std::size_t index) {
     for (const auto& texture : {normal, occlusion, residual})
         if (texture) places_.release("textures", *texture);
     constexpr std::uint64_t kNone = ~std::uint64_t{0};
-    for (const char* key : {"grid", "data"})
+    for (const char* key : {"grid", "data", "charts"})
         if (const Json* texture = find_member(extension, key))
             places_.release("bufferViews", unsigned_or(*texture, "bufferView", kNone));
-    take_off_frames(index);
+    take_off_attributes(index);
 }
 
-void GlbWriter::take_off_frames(std::size_t material) {
+void GlbWriter::take_off_attributes(std::size_t material) {
     constexpr std::uint64_t kNone = ~std::uint64_t{0};
     for (Json& mesh : document_["meshes"])
         for (Json& primitive : mesh["primitives"]) {
             if (unsigned_or(primitive, "material", kNone) != material) continue;
-            for (const char* name : kFrameAttributes) {
+            for (const char* name : {kFrameAttributes[0], kFrameAttributes[1], kFrameAttributes[2], kFrameAttributes[3],
+                                     kFrameAttributes[4], kChartAttribute}) {
                 const auto accessor = attribute_of(primitive, name);
                 if (!accessor.has_value()) continue;
                 primitive["attributes"].erase(name);
@@ -269,17 +277,29 @@ void GlbWriter::take_off_frames(std::size_t material) {
         }
 }
 
-// Frames of a primitive, as floats in the order of its vertices and of kFrameAttributes; empty where it is flat.
-std::vector<float> frames_of(const ModelData& model, const Json& primitive, int tex_coord) {
+// A primitive's surface: what frames and charts are worked out from.
+struct Surface {
+    std::vector<float> positions, normals, uvs;
+    std::vector<std::uint32_t> indices;
+    SurfaceMesh mesh() const { return {positions, normals, uvs, indices}; }
+};
+
+Surface read_surface(const ModelData& model, const Json& primitive, int tex_coord) {
+    Surface surface;
+    surface.positions = read_numbers(model, *attribute_of(primitive, "POSITION"));
     std::string uv_name = "TEXCOORD_";
     uv_name += std::to_string(tex_coord);
-    const std::vector<float> positions = read_numbers(model, *attribute_of(primitive, "POSITION"));
-    const std::vector<float> uvs = read_numbers(model, *attribute_of(primitive, uv_name));
-    const std::vector<std::uint32_t> indices = triangle_indices(model, primitive);
+    surface.uvs = read_numbers(model, *attribute_of(primitive, uv_name));
+    surface.indices = triangle_indices(model, primitive);
     const auto given = attribute_of(primitive, "NORMAL");
-    const std::vector<float> normals = given ? read_numbers(model, *given) : normals_of_faces(positions, indices);
+    surface.normals = given ? read_numbers(model, *given) : normals_of_faces(surface.positions, surface.indices);
+    return surface;
+}
+
+// Frames of a primitive, as floats in the order of its vertices and of kFrameAttributes; empty where it is flat.
+std::vector<float> frames_of(const Surface& surface) {
     std::vector<float> values;
-    for (const SurfaceFrame& frame : compute_frames({positions, normals, uvs, indices}))
+    for (const SurfaceFrame& frame : compute_frames(surface.mesh()))
         for (const std::array<float, 3>& v : {frame.du, frame.dv, frame.duu, frame.duv, frame.dvv})
             values.insert(values.end(), v.begin(), v.end());
     return values;
@@ -293,7 +313,7 @@ void GlbWriter::add_frames(std::size_t material, int tex_coord) {
         for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
             Json& primitive = document_["meshes"][m]["primitives"][p];
             if (!is_triangles(primitive) || unsigned_or(primitive, "material", ~std::uint64_t{0}) != material) continue;
-            const std::vector<float> values = frames_of(model_, meshes[m]["primitives"][p], tex_coord);
+            const std::vector<float> values = frames_of(read_surface(model_, meshes[m]["primitives"][p], tex_coord));
             if (values.empty()) continue;
             // Places first, so that those of a replaced pattern give their view back.
             std::array<std::size_t, kFrameAttributes.size()> accessors;
@@ -310,6 +330,54 @@ void GlbWriter::add_frames(std::size_t material, int tex_coord) {
                 primitive["attributes"][kFrameAttributes[k]] = accessors[k];
             }
         }
+}
+
+void GlbWriter::add_numbers(Json& primitive, const char* attribute, const std::vector<std::uint32_t>& values) {
+    constexpr int kFloat = 5126, kArrayBuffer = 34962;
+    const std::size_t accessor = places_.take("accessors");
+    std::vector<std::uint8_t> bytes;
+    for (const std::uint32_t value : values) append_word(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+    const std::size_t view = add_view(bytes, kAlignment);
+    document_["bufferViews"][view].update({{"target", kArrayBuffer}, {"name", "path detail, chart numbers"}});
+    document_["accessors"][accessor] = {{"bufferView", view}, {"componentType", kFloat}, {"count", values.size()}, {"type", "SCALAR"}};
+    primitive["attributes"][attribute] = accessor;
+}
+
+Status GlbWriter::add_charts(std::size_t material, PathDetail& detail) {
+    const Json& meshes = array_of(model_.document, "meshes");
+    const ChartOptions options{{detail.size_u, detail.size_v}, detail.repeat};
+    std::vector<ChartBorder> borders;
+    std::vector<std::pair<Json*, std::vector<std::uint32_t>>> numbers;
+    std::uint32_t count = 0;
+    bool needed = false;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        std::vector<Surface> surfaces;
+        std::vector<Json*> owners;
+        for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
+            Json& primitive = document_["meshes"][m]["primitives"][p];
+            if (!is_triangles(primitive) || unsigned_or(primitive, "material", ~std::uint64_t{0}) != material) continue;
+            surfaces.push_back(read_surface(model_, meshes[m]["primitives"][p], detail.tex_coord));
+            owners.push_back(&primitive);
+        }
+        std::vector<SurfaceMesh> views;
+        for (const Surface& surface : surfaces) views.push_back(surface.mesh());
+        ChartSet found = find_charts(views, options, count);
+        count += found.count;
+        needed = needed || found.needed;
+        borders.insert(borders.end(), found.borders.begin(), found.borders.end());
+        for (std::size_t i = 0; i < owners.size(); ++i) numbers.emplace_back(owners[i], std::move(found.charts[i]));
+    }
+    detail.charts = {};
+    if (!needed) return Done{};
+    if (borders.size() > BURIN_MAX_BORDERS)
+        return Error{ErrorCode::limit_exceeded, "the texture coordinates are cut along " + std::to_string(borders.size() / 2) +
+                                                    " edges of the mesh, at most " + std::to_string(BURIN_MAX_BORDERS / 2) +
+                                                    " are supported; weld vertices that share position and uv"};
+    ChartTable table = pack_charts(borders, detail.depth);
+    detail.charts = table.layout;
+    detail.charts.view = static_cast<int>(add_words(table.words, "path detail, charts"));
+    for (const auto& [primitive, values] : numbers) add_numbers(*primitive, kChartAttribute, values);
+    return Done{};
 }
 
 // Puts the fallback's normal map into the core material and keeps what stood there under the extras.
@@ -365,6 +433,7 @@ Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedText
         described.residual_scale = residual.scale;
     }
     Json& material = writer.material(target->index, target->name);
+    if (Status status = writer.add_charts(target->index, described); !status.ok()) return status.error();
     if (Status status = add_fallback(writer, material, fallback, described); !status.ok())
         return status.error();
     material["extensions"][std::string(kPathDetailExtension)] = Json::parse(write_extension(described));

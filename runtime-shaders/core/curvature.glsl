@@ -19,10 +19,6 @@
 #define BURIN_MAX_CHORDS 32
 // Part of the depth by which a chord may stand off the curve.
 #define BURIN_CHORD_ERROR 4.0e-3f
-// Fall per metre over the plane of a chord that rises or runs level.
-#define BURIN_LEAST_FALL 0.02f
-// Part of a chord by which the next one overlaps it, so that nothing is missed between them.
-#define BURIN_CHORD_OVERLAP 1.0e-3f
 // The most that the offset surface may shrink at the lowest point: where it is rounder than that it would fold.
 #define BURIN_MOST_SHRINK 0.75f
 
@@ -32,6 +28,9 @@
 
 // The most that the surface may turn or stretch over one depth.
 #define BURIN_MOST_CURVE 10.0f
+
+// Part of the depth by which a ray of one depth may bend and still count as straight.
+#define BURIN_MOST_RAY_BEND 0.05f
 
 // Slope beyond which no straight ray stands in for one over a round surface: some 70 degrees.
 #define BURIN_MOST_STRAIGHT 3.0f
@@ -59,12 +58,15 @@ struct BurinSight {
     vec3 shift;     // (x, y, drop) that is added to all places of the curve
     vec2 near;      // place of its beginning, about
     int chords;
+    BurinSheet sheet;  // where it begins
 };
 
 struct BurinFound {
     BurinHit hit;
     float way;   // s of the hit
-    vec2 place;  // where it is, metres; not moved into the tile
+    vec2 place;  // where it is, metres of the pattern that the ray began in; not moved into the tile
+    float drop;  // there
+    BurinSheet sheet;  // where what was met is looked up
 };
 
 // The round surface over its tangent plane.
@@ -191,9 +193,10 @@ int burin_chord_count(BurinRound bend, vec2 along, float fall, float stretch) {
 }
 
 // An eye's ray through the mesh at ray.origin, at `start` or within the pixel beside it. `direction` of unit length in
-// space, along the local frame; it falls.
-BurinSight burin_eye_sight(BurinRound bend, vec2 start, BurinRay ray, vec3 direction) {
+// space, along the local frame; it falls. `chart`: that of the triangle.
+BurinSight burin_eye_sight(BurinRound bend, vec2 start, BurinRay ray, vec3 direction, int chart) {
     BurinSight sight;
+    sight.sheet = burin_first_sheet(chart);
     sight.ray = ray;
     sight.until = burin_map.depth;
     sight.from = vec3(0.0f, 0.0f, 0.0f);
@@ -234,8 +237,10 @@ BurinSight burin_eye_sight(BurinRound bend, vec2 start, BurinRay ray, vec3 direc
 BurinSight burin_light_sight(BurinRound bend, BurinRay ray, float until, BurinFound found, vec2 start, vec2 origin,
                              vec3 direction, vec3 light) {
     BurinSight sight;
+    sight.sheet = found.sheet;
     sight.ray = ray;
     sight.until = until;
+    sight.outward = true;
     sight.first = 0.0f;
     sight.chord = 0.0f;
     sight.fall = 1.0f;
@@ -245,49 +250,38 @@ BurinSight burin_light_sight(BurinRound bend, BurinRay ray, float until, BurinFo
     if (!bend.bent) return sight;
     sight.from = bend.entry + vec3(origin.x - start.x, origin.y - start.y, 0.0f) + direction * found.way;
     sight.along = light;
-    sight.outward = true;
     vec2 d = found.place - start;
     BurinSpot spot = burin_spot(bend, d);
     float rise = max(light.z - dot(vec2(light), spot.slope), 1.0e-3f);
     float second = burin_second(bend, vec2(light)).z;
-    float square = rise * rise - 2.0f * second * found.hit.t;
-    float stretch = square > 0.0f ? 2.0f * found.hit.t / (rise + sqrt(square)) : rise / second;
+    float square = rise * rise - 2.0f * second * found.drop;
+    float stretch = square > 0.0f ? 2.0f * found.drop / (rise + sqrt(square)) : rise / second;
     sight.chords = burin_chord_count(bend, vec2(light), rise, stretch);
     sight.chord = stretch * 1.001f / float(sight.chords);
-    sight.first = max(found.hit.t - until, 0.0f) / rise;
+    sight.first = max(found.drop - until, 0.0f) / rise;
     // The hit lies on a chord; the curve goes through it from here on.
-    sight.shift = vec3(d.x, d.y, found.hit.t) - burin_place(bend, sight.from, d);
+    sight.shift = vec3(d.x, d.y, found.drop) - burin_place(bend, sight.from, d);
     sight.near = d;
     return sight;
-}
-
-// A straight piece of a sight, falling from t0 to t1.
-struct BurinChord {
-    BurinRay ray;
-    float t0;
-    float t1;
-};
-
-BurinChord burin_chord(vec2 start, vec3 upper, vec3 lower, bool outward) {
-    vec2 way = vec2(lower) - vec2(upper);
-    float fall = max(max(lower.z - upper.z, length(way) * BURIN_LEAST_FALL), 1.0e-6f * burin_map.depth);
-    BurinChord chord;
-    chord.t0 = outward ? lower.z - fall : upper.z;
-    chord.t1 = chord.t0 + fall;
-    chord.ray.slope = way * (1.0f / fall);
-    chord.ray.origin = start + vec2(upper) - chord.ray.slope * chord.t0;
-    chord.t0 = max(chord.t0 - fall * BURIN_CHORD_OVERLAP, 0.0f);
-    return chord;
 }
 
 // First solid point along a sight, for `outward` any. met is false where it leaves the object, or reaches its end, before.
 // `start`: pattern metres where the eye's ray passes the object surface.
 BurinFound burin_trace_sight(BurinRound bend, vec2 start, BurinSight sight) {
     BurinFound found;
+    found.sheet = sight.sheet;
     BurinChord chord;
     chord.ray = sight.ray;
     chord.t0 = 0.0f;
     chord.t1 = sight.until;
+    BurinPassage passage;
+    vec3 from = vec3(chord.ray.origin.x, chord.ray.origin.y, 0.0f);
+    vec2 over = chord.ray.origin + chord.ray.slope * sight.until;
+    vec3 to = vec3(over.x, over.y, sight.until);
+    if (sight.outward) {
+        from = to;
+        to = vec3(chord.ray.origin.x, chord.ray.origin.y, 0.0f);
+    }
     float s = sight.first;
     vec3 here = vec3(0.0f, 0.0f, 0.0f);
     if (bend.bent) {
@@ -315,20 +309,25 @@ BurinFound burin_trace_sight(BurinRound bend, vec2 start, BurinSight sight) {
                 length_here = sight.chord * part;
                 leaves = true;
             }
-            chord = burin_chord(start, sight.outward ? next : here, sight.outward ? here : next, sight.outward);
+            from = vec3(start.x, start.y, 0.0f) + here;
+            to = vec3(start.x, start.y, 0.0f) + next;
+            chord = burin_chord(sight.outward ? to : from, sight.outward ? from : to, sight.outward, BURIN_LEAST_FALL);
         }
-        found.hit = burin_trace(chord.ray, chord.t0, chord.t1);
-        if (found.hit.met || leaves) break;
+        passage = burin_trace_passage(found.sheet, chord, from, to, sight.outward);
+        if (passage.hit.met || leaves || passage.turned) break;
         s = s + length_here;
         here = next;
     }
+    found.hit = passage.hit;
     found.place = chord.ray.origin + chord.ray.slope * found.hit.t;
-    if (bend.bent) {
-        float part = (found.hit.t - chord.t0) / max(chord.t1 - chord.t0, 1.0e-20f);
-        found.way = s + length_here * (sight.outward ? 1.0f - part : part);
-    } else {
-        found.way = found.hit.t / max(-sight.along.z, BURIN_LEAST_FALL * length(sight.along) + 1.0e-12f);
+    found.drop = found.hit.t;
+    if (found.sheet.moved) {
+        vec3 place = mix(from, to, passage.part);
+        found.place = vec2(place);
+        found.drop = place.z;
     }
+    found.way = s + length_here * passage.part;
+    if (!bend.bent) found.way = found.drop / max(-sight.along.z, BURIN_LEAST_FALL * length(sight.along) + 1.0e-12f);
     return found;
 }
 
@@ -353,4 +352,10 @@ bool burin_straighten(BurinRound bend, vec3 direction, BURIN_INOUT(BurinRay) ray
     ray.origin = start + vec2(upper) - ray.slope * upper.z;
     drop = lower.z;
     return true;
+}
+
+// Whether a ray with a slope bends too much, on its way through the relief, for a straight one to stand in for it.
+bool burin_bends(BurinRound bend, vec2 slope) {
+    if (!bend.bent) return false;
+    return 0.5f * abs(burin_second(bend, slope * burin_map.depth).z) > BURIN_MOST_RAY_BEND * burin_map.depth;
 }

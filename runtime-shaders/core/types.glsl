@@ -27,6 +27,20 @@ struct BurinMap {
     int first_function;
 };
 
+// Whether the program knows charts, for meshes whose texture coordinates are cut.
+#ifndef BURIN_CHARTS
+#define BURIN_CHARTS 1
+#endif
+
+// The table of borders between charts; texels where its parts start.
+struct BurinCharts {
+    vec2 origin;  // of its grid, metres
+    vec2 cell;
+    ivec2 cells;  // (0, 0): no borders
+    int first_cell;
+    int first_reference;
+};
+
 struct BurinRay {
     vec2 origin;  // metres, where the ray passes the object surface
     vec2 slope;   // metres travelled over the plane per metre of drop

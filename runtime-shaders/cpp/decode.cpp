@@ -18,7 +18,9 @@ class Core {
   public:
 #include "core/types.glsl"
     BurinMap burin_map;
+    BurinCharts burin_charts;
     const PackedTextures* textures = nullptr;
+    const std::vector<std::uint32_t>* charts = nullptr;
     DecodeCounts* counts = nullptr;
 
     uvec2 fetch_cell(ivec2 index) const {
@@ -36,6 +38,13 @@ class Core {
         return uvec4(w[0], w[1], w[2], w[3]);
     }
 
+    uvec4 fetch_chart(int index) const {
+        const std::size_t k = 4 * std::size_t(index);
+        if (charts == nullptr || index < 0 || k + 4 > charts->size()) return uvec4(0);
+        const std::uint32_t* w = &(*charts)[k];
+        return uvec4(w[0], w[1], w[2], w[3]);
+    }
+
     std::uint64_t& section_of(int index) const {
         if (index < burin_map.first_style) return counts->elements;
         if (index < burin_map.first_profile) return counts->styles;
@@ -50,6 +59,8 @@ class Core {
 #include "core/section.glsl"
 #include "core/ground.glsl"
 #include "core/trace.glsl"
+#include "core/chord.glsl"
+#include "core/chart.glsl"
 #include "core/curvature.glsl"
 #include "core/surface.glsl"
 #include "core/residual.glsl"
@@ -64,7 +75,7 @@ class Core {
     static_assert(BURIN_MAX_CLASSES == Prefilter::kMostClasses);
 };
 
-Core make_core(const PackedTextures& textures, const PathDetail& detail) {
+Core make_core(const PackedTextures& textures, const PathDetail& detail, const std::vector<std::uint32_t>* charts = nullptr) {
     Core core;
     core.textures = &textures;
     core.burin_map.size = vec2(float(detail.size_u), float(detail.size_v));
@@ -79,6 +90,13 @@ Core make_core(const PackedTextures& textures, const PathDetail& detail) {
     core.burin_map.first_material = int(textures.sections.materials_begin());
     core.burin_map.first_list = int(textures.sections.lists_begin());
     core.burin_map.first_function = int(textures.sections.functions_begin());
+    core.charts = charts;
+    const ChartLayout& layout = detail.charts;
+    core.burin_charts.origin = vec2(float(layout.origin[0]), float(layout.origin[1]));
+    core.burin_charts.cell = vec2(float(layout.cell[0]), float(layout.cell[1]));
+    core.burin_charts.cells = charts != nullptr ? ivec2(layout.columns, layout.rows) : ivec2(0);
+    core.burin_charts.first_cell = int(layout.first_cell());
+    core.burin_charts.first_reference = int(layout.first_reference());
     return core;
 }
 
@@ -114,7 +132,7 @@ DecodedHit Decoder::trace(Vec2 origin, Vec2 slope, DecodeCounts* counts) const {
 }
 
 SurfaceHit Decoder::trace_surface(const SurfacePlace& place, const std::array<double, 3>& direction) const {
-    glsl::Core core = glsl::make_core(textures_, detail_);
+    glsl::Core core = glsl::make_core(textures_, detail_, charts_);
     const glm::vec2 size = core.burin_map.size;
     const glm::mat3 frame(to_vec3(place.du) / size.x, to_vec3(place.dv) / size.y, to_vec3(place.normal));
     const glm::mat3 to_local = glm::inverse(frame);
@@ -124,10 +142,13 @@ SurfaceHit Decoder::trace_surface(const SurfacePlace& place, const std::array<do
     glsl::Core::BurinRay ray;
     ray.origin = glm::vec2(float(place.uv.x), float(place.uv.y)) * size;
     ray.slope = core.burin_slope_of(local);
-    const auto found = core.burin_trace_sight(bend, ray.origin, core.burin_eye_sight(bend, ray.origin, ray, local));
+    const auto found = core.burin_trace_sight(bend, ray.origin, core.burin_eye_sight(bend, ray.origin, ray, local, int(place.chart)));
     SurfaceHit hit;
     static_cast<DecodedHit&>(hit) = describe(core, found.hit);
     hit.way = double(found.way);
+    // The normal in the space that the ray began in.
+    const glm::vec3 normal = glm::transpose(found.sheet.turn) * glm::vec3(float(hit.normal[0]), float(hit.normal[1]), float(hit.normal[2]));
+    for (int i = 0; i < 3; ++i) hit.normal[i] = double(normal[i] / std::max(glm::length(normal), 1e-12f));
     return hit;
 }
 

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include <burin/format/extension.hpp>
 #include <burin/format/texels.hpp>
@@ -48,6 +49,8 @@ struct SurfacePlace {
     std::array<double, 3> du{}, dv{}, duu{}, duv{}, dvv{};
     // Of u u, u v, v v over the triangle: their means over its corners, with the weights of the point, less the point's own.
     std::array<double, 3> spread{};
+    // 2 * number of its chart, + 1 where the triangle is wound clockwise in uv (burin/charts.hpp).
+    std::uint32_t chart = 0;
 };
 
 // Of a ray in space. met is false where the ray comes out through the object surface without meeting anything, as it
@@ -61,8 +64,9 @@ struct SurfaceHit : DecodedHit {
 // Every member is const and safe to call from several threads.
 class Decoder {
   public:
-    Decoder(const PackedTextures& textures, const PathDetail& detail)
-        : textures_(textures), detail_(detail) {}
+    // `charts`: the table of detail.charts, over whose borders trace_surface goes on; null: there is none.
+    Decoder(const PackedTextures& textures, const PathDetail& detail, const std::vector<std::uint32_t>* charts = nullptr)
+        : textures_(textures), detail_(detail), charts_(charts) {}
 
     // The ray that passes the object surface at `origin` and goes `slope` metres over the plane per metre of
     // drop. Cost: cells passed times elements listed, some microseconds.
@@ -79,6 +83,7 @@ class Decoder {
   private:
     const PackedTextures& textures_;
     const PathDetail& detail_;
+    const std::vector<std::uint32_t>* charts_;
 };
 
 // The whole tile from straight above in the map's scale (1 = object surface, 0 = depth below it), each texel

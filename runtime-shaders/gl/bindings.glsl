@@ -4,6 +4,15 @@ uniform BurinMap burin_map;
 uniform highp usampler2D burin_grid;  // RG32UI
 uniform highp usampler2D burin_data;  // RGBA32UI
 uniform int burin_data_width;
+#if BURIN_CHARTS != 0
+uniform BurinCharts burin_charts;
+uniform highp usampler2D burin_chart_table;  // RGBA32UI
+
+uvec4 fetch_chart(int index) {
+    int width = textureSize(burin_chart_table, 0).x;
+    return texelFetch(burin_chart_table, ivec2(index % width, index / width), 0);
+}
+#endif
 
 uvec2 fetch_cell(ivec2 index) {
     return texelFetch(burin_grid, index, 0).xy;

@@ -15,6 +15,7 @@ constexpr const char* kVersion =
 
 constexpr int kResidualUnit = 3;  // behind those of the pattern and the renderer's own
 constexpr int kPrefilterUnit = 4;
+constexpr int kChartUnit = 5;
 
 // Log of a shader or program, shortened to its first lines.
 template <typename Query, typename Log>
@@ -111,16 +112,17 @@ int function_kinds(const PackedTextures& textures) {
     return kinds & 7;
 }
 
-std::string fragment_text(Stage stage, int function_kinds) {
+std::string fragment_text(Stage stage, const Features& features) {
     std::string text = kVersion;
     if (stage == Stage::surface_with_depth) text += "#define BURIN_CORRECT_DEPTH\n";
-    text += "#define BURIN_FUNCTION_KINDS " + std::to_string(function_kinds) + "\n";
+    text += "#define BURIN_FUNCTION_KINDS " + std::to_string(features.function_kinds) + "\n";
+    text += features.charts ? "#define BURIN_CHARTS 1\n" : "#define BURIN_CHARTS 0\n";
     text += shader_text::layout;
     text += shader_text::types;
     text += shader_text::bindings;
     for (const char* part :
          {shader_text::fetch, shader_text::perturbation, shader_text::curve, shader_text::domain, shader_text::section,
-          shader_text::ground, shader_text::trace, shader_text::curvature, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
+          shader_text::ground, shader_text::trace, shader_text::chord, shader_text::chart, shader_text::curvature, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
         text += part;
     if (stage == Stage::rays) return text + shader_text::rays_frag;
     if (stage == Stage::top) return text + shader_text::top_frag;
@@ -130,13 +132,13 @@ std::string fragment_text(Stage stage, int function_kinds) {
     return text;
 }
 
-Result<Program> Program::build(const Functions& gl, Stage stage, int function_kinds) {
+Result<Program> Program::build(const Functions& gl, Stage stage, const Features& features) {
     const std::string vertex_text =
         std::string(kVersion) +
         (stage == Stage::rays || stage == Stage::top ? shader_text::screen_vert : shader_text::surface_vert);
     auto vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
     if (!vertex) return vertex.error();
-    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage, function_kinds));
+    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage, features));
     if (!fragment) {
         gl.DeleteShader(*vertex);
         return fragment.error();
@@ -162,7 +164,7 @@ Program::~Program() {
 }
 
 DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textures, const PathDetail& detail,
-                               const RgbaImage& residual)
+                               const RgbaImage& residual, const std::vector<std::uint32_t>& charts)
     : gl_(gl),
       detail_(detail),
       sections_(textures.sections),
@@ -175,6 +177,8 @@ DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textur
     names_[1] =
         make_texture(gl, GL_RGBA32UI, GL_RGBA_INTEGER, data_width_, textures.data_height, textures.data, 4);
     names_[2] = make_residual(gl, residual, detail.repeat);
+    if (!charts.empty())
+        names_[4] = make_texture(gl, GL_RGBA32UI, GL_RGBA_INTEGER, detail.charts.width, detail.charts.height, charts, 4);
     if (textures.sections.end() > 0) {
         Prefilter filter = prefilter_pattern(textures, detail);
         names_[3] = make_prefilter(gl, filter, detail.repeat);
@@ -184,7 +188,7 @@ DetailTextures::DetailTextures(const Functions& gl, const PackedTextures& textur
     }
 }
 
-DetailTextures::~DetailTextures() { gl_.DeleteTextures(4, names_); }
+DetailTextures::~DetailTextures() { gl_.DeleteTextures(5, names_); }
 
 void DetailTextures::bind(const Program& program) const {
     for (int i = 0; i < 2; ++i) {
@@ -204,6 +208,16 @@ void DetailTextures::bind(const Program& program) const {
         gl_.Uniform4f(program.at(("burin_classes[" + std::to_string(k) + "]").c_str()), float(kind.style),
                       float(kind.tangent.x), float(kind.tangent.y), float(kind.height));
     }
+    gl_.ActiveTexture(GLenum(GL_TEXTURE0 + kChartUnit));
+    gl_.BindTexture(GL_TEXTURE_2D, names_[4] != 0 ? names_[4] : names_[1]);
+    program.set("burin_chart_table", kChartUnit);
+    const ChartLayout& layout = detail_.charts;
+    program.set("burin_charts.origin", float(layout.origin[0]), float(layout.origin[1]));
+    program.set("burin_charts.cell", float(layout.cell[0]), float(layout.cell[1]));
+    const bool charted = names_[4] != 0;
+    gl_.Uniform2i(program.at("burin_charts.cells"), charted ? layout.columns : 0, charted ? layout.rows : 0);
+    program.set("burin_charts.first_cell", int(layout.first_cell()));
+    program.set("burin_charts.first_reference", int(layout.first_reference()));
     program.set("burin_grid", 0);
     program.set("burin_data", 1);
     program.set("burin_data_width", data_width_);

@@ -20,13 +20,19 @@ enum class Stage { rays, top, surface, surface_with_depth };  // the last writes
 // Kinds of functions along paths that the textures hold, for BURIN_FUNCTION_KINDS of core/types.glsl.
 int function_kinds(const PackedTextures& textures);
 
-// Text of a fragment shader as the driver gets it: version, kinds of functions, layout.h, core, bindings, main.
-std::string fragment_text(Stage stage, int function_kinds);
+// What a program is built for: what it need not know costs it nothing.
+struct Features {
+    int function_kinds = 0;
+    bool charts = false;  // meshes whose texture coordinates are cut
+};
+
+// Text of a fragment shader as the driver gets it: version, features, layout.h, core, bindings, main.
+std::string fragment_text(Stage stage, const Features& features);
 
 class Program {
   public:
-    // For textures with no other kinds of functions. Fails with unavailable, carrying the driver's log.
-    static Result<Program> build(const Functions& gl, Stage stage, int function_kinds);
+    // For textures and meshes with no other features. Fails with unavailable, carrying the driver's log.
+    static Result<Program> build(const Functions& gl, Stage stage, const Features& features);
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
     ~Program();
@@ -44,11 +50,11 @@ class Program {
     GLuint id_;
 };
 
-// The two textures of a pattern on texture units 0 and 1, and its residual, if it has one, on unit 3.
+// The two textures of a pattern on texture units 0 and 1, its residual, if it has one, on unit 3, and the table of its charts on 5.
 class DetailTextures {
   public:
     DetailTextures(const Functions& gl, const PackedTextures& textures, const PathDetail& detail,
-                   const RgbaImage& residual = {});
+                   const RgbaImage& residual = {}, const std::vector<std::uint32_t>& charts = {});
     DetailTextures(const DetailTextures&) = delete;
     DetailTextures& operator=(const DetailTextures&) = delete;
     ~DetailTextures();
@@ -65,7 +71,7 @@ class DetailTextures {
     std::array<float, 2> drop_range_;
     bool has_residual_;
     std::vector<PrefilterClass> classes_;
-    GLuint names_[4] = {0, 0, 0, 0};
+    GLuint names_[5] = {0, 0, 0, 0, 0};
 };
 
 // A framebuffer of RGBA float colours, with depth if asked.

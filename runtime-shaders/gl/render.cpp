@@ -199,13 +199,14 @@ class Mesh {
         : gl_(gl), count_(GLsizei(primitive.indices.size())) {
         gl_.GenVertexArrays(1, &array_);
         gl_.BindVertexArray(array_);
-        gl_.GenBuffers(5, buffers_);
+        gl_.GenBuffers(kBuffers, buffers_);
         attribute(0, 3, primitive.positions);
         attribute(1, 3, primitive.normals);
         attribute(2, 2, primitive.uvs);
         // Without frames the second derivatives are those of OpenGL's disabled attributes: zero.
         const bool framed = !primitive.frames.empty();
         attributes(3, framed ? 5 : 2, framed ? frames_of(primitive) : directions_of(primitive));
+        if (!primitive.charts.empty()) attribute(8, 1, primitive.charts);
         gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[4]);
         gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(primitive.indices.size() * 4),
                        primitive.indices.data(), GL_STATIC_DRAW);
@@ -213,7 +214,7 @@ class Mesh {
     Mesh(const Mesh&) = delete;
     Mesh& operator=(const Mesh&) = delete;
     ~Mesh() {
-        gl_.DeleteBuffers(5, buffers_);
+        gl_.DeleteBuffers(kBuffers, buffers_);
         gl_.DeleteVertexArrays(1, &array_);
     }
     void draw() const {
@@ -234,17 +235,18 @@ class Mesh {
     }
     // `stride` floats from one vertex to the next; 0: packed.
     void attribute(GLuint place, GLint components, const std::vector<float>& values, int stride = 0) {
-        gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[place]);
+        gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[std::min<GLuint>(place, 5)]);
         gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * 4), values.data(), GL_STATIC_DRAW);
         gl_.VertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, GLsizei(stride * int(sizeof(float))),
                                 nullptr);
         gl_.EnableVertexAttribArray(place);
     }
 
+    static constexpr int kBuffers = 6;
     const gl::Functions& gl_;
     GLsizei count_;
     GLuint array_ = 0;
-    GLuint buffers_[5] = {0, 0, 0, 0, 0};
+    GLuint buffers_[kBuffers] = {};  // attributes up to the derivatives, indices, charts
 };
 
 // The asset in the context: meshes, textures and the program.
@@ -260,7 +262,7 @@ Scene load_scene(const gl::Functions& gl, const Asset& asset) {
         scene.meshes.push_back(std::make_unique<Mesh>(gl, primitive));
     for (const MaterialInfo& material : asset.materials)
         scene.details.push_back(
-            material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail, material.residual)
+            material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail, material.residual, material.charts)
                                 : nullptr);
     PackedTextures empty;
     empty.grid_width = empty.grid_height = empty.data_width = empty.data_height = 1;
@@ -268,6 +270,15 @@ Scene load_scene(const gl::Functions& gl, const Asset& asset) {
     empty.data.assign(4, 0);
     scene.none = std::make_unique<gl::DetailTextures>(gl, empty, PathDetail{});
     return scene;
+}
+
+gl::Features features_of(const Asset& asset) {
+    gl::Features features;
+    for (const MaterialInfo& material : asset.materials) {
+        if (material.has_detail) features.function_kinds |= gl::function_kinds(material.textures);
+        features.charts = features.charts || !material.charts.empty();
+    }
+    return features;
 }
 
 void set_view(const gl::Program& program, const View& view, const RenderOptions& options) {
@@ -290,6 +301,7 @@ void draw_pass(const gl::Functions& gl, const gl::Program& program, const Asset&
         program.set("has_detail", material.has_detail ? 1 : 0);
         gl.Uniform4f(program.at("base_color"), material.base_color[0], material.base_color[1],
                      material.base_color[2], material.base_color[3]);
+        program.set("mirrored", asset.primitives[i].mirrored ? 1 : 0);
         program.set("metallic", material.metallic);
         program.set("roughness", material.roughness);
         // A mesh seen from behind shows nothing unless its material says so.
@@ -481,10 +493,7 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     auto context = gl::open_context(options.backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
-    int kinds = 0;
-    for (const auto& material : asset.materials)
-        if (material.has_detail) kinds |= gl::function_kinds(material.textures);
-    auto program = gl::Program::build(gl, options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface, kinds);
+    auto program = gl::Program::build(gl, options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface, features_of(asset));
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
     if (!target) return target.error();

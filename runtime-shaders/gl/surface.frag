@@ -16,6 +16,7 @@ vec2 uv_along_x;
 vec2 uv_along_y;
 vec2 light_slope;   // metres that the light moves over the plane per metre of fall
 bool light_above;
+int chart;
 vec3 eye_direction;  // in the local frame, of unit length in space
 
 // Normals and light are those at a place of the relief.
@@ -32,20 +33,38 @@ void stand_at(vec2 moved, float drop) {
     light_slope = burin_slope_of(-toward);
 }
 
+// Whether what the pixel shows, or what throws a shadow on it, may lie beyond a border of the chart.
+bool meets_border(BurinRay ray, vec2 along_x, vec2 along_y) {
+#if BURIN_CHARTS != 0
+    vec2 reach = ray.slope * (0.5 * burin_map.depth);
+    float light_reach = min(length(light_slope), BURIN_MOST_STRAIGHT) * burin_map.depth;
+    return burin_near_border(chart, ray.origin + reach, length(reach) + 0.5 * (length(along_x) + length(along_y)) + light_reach);
+#else
+    return false;
+#endif
+}
+
 // What one ray meets, shadow included; w: 0 where it leaves the object beside its outline.
 vec4 point_color(BurinRay ray) {
-    BurinFound found = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction));
+    BurinFound found = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction, chart));
     BurinHit hit = found.hit;
     if (!hit.met) return vec4(0.0);
     BurinSurface surface = burin_surface(hit);
     rest_slopes = fetch_residual(hit.ray.origin + hit.ray.slope * hit.t, uv_along_x, uv_along_y);
-    stand_at(found.place - bend_start, hit.t);
+    BurinRay met = hit.ray;
+    if (found.sheet.moved) {
+        surface.normal = normalize(transpose(found.sheet.turn) * surface.normal);
+        rest_slopes = (transpose(found.sheet.turn) * vec3(rest_slopes, 0.0)).xy;
+        met.slope = ray.slope;
+        met.origin = found.place - ray.slope * found.drop;
+    }
+    stand_at(found.place - bend_start, found.drop);
     float lit = light_above ? 1.0 : 0.0;
-    float before = hit.t - 4.0e-3 * burin_map.depth;
+    float before = found.drop - 4.0e-3 * burin_map.depth;
     if (shadows != 0 && light_above && before > 0.0) {
         BurinRay shadow;
         shadow.slope = light_slope;
-        shadow.origin = hit.ray.origin + (hit.ray.slope - light_slope) * hit.t;
+        shadow.origin = met.origin + (met.slope - light_slope) * found.drop;
         BurinSight sight = burin_light_sight(bend, shadow, before, found, bend_start, ray.origin, eye_direction, to_pattern * light);
         if (burin_trace_sight(bend, bend_start, sight).hit.met) lit = 0.0;
     }
@@ -85,6 +104,9 @@ vec4 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
         vec3 ground = burin_facet_color(vec3(0.0, 0.0, 1.0), 0u, light_above ? 1.0 : 0.0);
         BurinRegion region = burin_region(part_ray, burin_footprint(x, y), light_slope, shadows != 0 && light_above, ground,
                                             level);
+        // The eye's straight ray meets the true one half way down; the light's begins on it.
+        bool bends = burin_bends(bend, ray.slope * 0.5) || (shadows != 0 && light_above && burin_bends(bend, light_slope));
+        if (region.special == 0u && (bends || meets_border(part_ray, x, y))) region.special = 1u;
         vec3 found = ground + region.color;
         // From a pixel that spans many features to one that spans too many: the prefilter takes over by degrees.
         float far = smoothstep(0.4, 0.9, region.fullness);
@@ -135,13 +157,14 @@ void main() {
     to_pattern = inverse(frame);
     bend = pattern_bend(pattern_uv, frame, to_pattern, own);
     bend_start = pattern_uv * burin_map.size;
+    chart = chart_key();
     eye_direction = to_pattern * -to_eye;
     BurinRay ray;
     ray.origin = bend_start;
     ray.slope = burin_slope_of(eye_direction);
     stand_at(vec2(0.0), 0.0);
 #ifdef BURIN_CORRECT_DEPTH
-    BurinFound middle = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction));
+    BurinFound middle = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction, chart));
     if (middle.hit.met) gl_FragDepth = depth_of(world_position - to_eye * middle.way);
 #endif
     vec2 along_x = uv_along_x * burin_map.size;

@@ -8,6 +8,7 @@ layout(location = 4) in vec3 along_v;
 layout(location = 5) in vec3 duu;  // their changes, per unit of u and of v; zero: unknown
 layout(location = 6) in vec3 duv;
 layout(location = 7) in vec3 dvv;
+layout(location = 8) in float chart;  // its number
 out vec3 world_position;
 out vec3 world_normal;
 out vec2 pattern_uv;
@@ -17,6 +18,7 @@ out vec3 world_duu;
 out vec3 world_duv;
 out vec3 world_dvv;
 out vec3 uv_products;
+flat out float chart_number;
 
 void main() {
     world_position = position;
@@ -27,6 +29,7 @@ void main() {
     world_duu = duu;
     world_duv = duv;
     world_dvv = dvv;
+    chart_number = chart;
     uv_products = vec3(uv.x * uv.x, uv.x * uv.y, uv.y * uv.y);
     gl_Position = world_to_clip * vec4(position, 1.0);
 }

@@ -12,6 +12,8 @@ Scene make_tapered_cracks();
 Scene make_letters();
 Scene make_scratched_sphere();
 Scene make_engraved_armour();
+Scene make_carved_cube();
+Scene make_carved_ball();
 
 // Figures 5 to 7.
 Scene make_crossing();

@@ -18,6 +18,8 @@ const std::vector<SceneEntry>& scene_table() {
         {"isolated_end", "2010 figure 7, middle", make_isolated_end},
         {"corner", "2010 figure 7, right", make_corner},
         {"engraved_armour", "2010 figure 1", make_engraved_armour},
+        {"carved_cube", "2010 section 4.1", make_carved_cube},
+        {"carved_ball", "2010 section 4.1", make_carved_ball},
         {"parallel_grooves", "2008 figure 10, left", make_parallel_grooves},
         {"crossing_scratches", "2008 figure 10, right", make_crossing_scratches},
         {"grooved_sphere", "2008 figure 11", make_grooved_sphere},

@@ -325,6 +325,39 @@ TEST(Gltf, RoundPrimitivesBringTheirDerivatives) {
     EXPECT_EQ(attach(model_of(attach(model_of(glb), {}, other))), glb);
 }
 
+// Two quads that meet in a right angle, their uvs apart.
+Model folded_model() {
+    const std::string obj =
+        "v -1 0 0\nv 0 0 0\nv -1 0 1\nv 0 0 1\nv 0 -1 0\nv 0 -1 1\n"
+        "vt 0 1\nvt 0.3 1\nvt 0 0.7\nvt 0.3 0.7\nvt 0.5 0.5\nvt 0.5 0.2\nvt 0.8 0.2\nvt 0.8 0.5\nvn 0 1 0\nvn 1 0 0\n"
+        "f 1/1/1 3/3/1 4/4/1 2/2/1\nf 2/5/2 4/6/2 6/7/2 5/8/2\n";
+    return model_of(Bytes(obj.begin(), obj.end()));
+}
+
+TEST(Gltf, CutTextureCoordinatesBringBorders) {
+    const Bytes glb = attach(folded_model());
+    const auto asset = read_asset(glb);
+    ASSERT_TRUE(asset.ok());
+    const MaterialInfo& material = asset->materials[0];
+    EXPECT_EQ(material.detail.charts.borders, 2);
+    EXPECT_EQ(material.charts.size(), 4u * std::size_t(material.detail.charts.width) * std::size_t(material.detail.charts.height));
+    EXPECT_EQ(std::set<float>(asset->primitives[0].charts.begin(), asset->primitives[0].charts.end()), (std::set<float>{0.0f, 1.0f}));
+    EXPECT_FALSE(asset->primitives[0].mirrored);
+    expect_no_leftovers(glb);
+    PathDetail other = small_detail();
+    other.depth = 0.25;
+    EXPECT_EQ(attach(model_of(attach(model_of(glb), {}, other))), glb);
+    // A mirrored node winds the triangles anew; a model without cuts has no table.
+    Json document = json_of(glb);
+    document["nodes"][0]["scale"] = {-1.0, 1.0, 1.0};
+    const auto mirrored = read_asset(with_json(glb, document));
+    ASSERT_TRUE(mirrored.ok());
+    EXPECT_TRUE(mirrored->primitives[0].mirrored);
+    const auto plane = read_asset(attach(make_plane({1, 1})));
+    EXPECT_EQ(plane->materials[0].detail.charts.borders, 0);
+    EXPECT_TRUE(plane->primitives[0].charts.empty());
+}
+
 TEST(Gltf, AttachingWithoutFallbackTakesTheOldOneAway) {
     const std::string text = rich_document().dump();
     const Model model = model_of(Bytes(text.begin(), text.end()));

@@ -109,11 +109,15 @@ TEST(Specification, SchemasRequireWhatTheReaderRequires) {
     detail.data_width = 2;
     detail.sections.material_texels = detail.sections.function_texels = 1;
     detail.residual_texture = 0;
+    detail.charts = {0, 6, 1, 1, 1, 1, {0.0, 0.0}, {1.0, 1.0}};
     const nlohmann::json extension = nlohmann::json::parse(write_extension(detail));
     expect_required(extension, "", schema(""));
     expect_required(extension, "grid", schema(".grid"));
     expect_required(extension, "data", schema(".data"));
     expect_required(extension, "residualTexture", schema(".residual"));
+    expect_required(extension, "charts", schema(".charts"));
+    EXPECT_EQ(schema(".charts")["properties"]["borders"]["maximum"].get<int>(), BURIN_MAX_BORDERS);
+    EXPECT_EQ(schema(".charts")["properties"]["columns"]["maximum"].get<int>(), BURIN_MAX_CHART_CELLS);
     const auto limit = [](const char* name) {
         return schema(".data")["properties"][name]["maximum"].get<int>();
     };

@@ -193,6 +193,42 @@ void add_frame_cases(std::map<int, Bytes>& cases) {
     cases[2041] = broken_frames([](json& d, json&) { d["accessors"].back()["type"] = "VEC4"; });
 }
 
+std::string base64(const Bytes& bytes) {
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {  // the sizes here are multiples of three
+        const std::uint32_t three = std::uint32_t{bytes[i]} << 16 | std::uint32_t{bytes[i + 1]} << 8 | bytes[i + 2];
+        for (int shift = 18; shift >= 0; shift -= 6) text += digits[three >> shift & 63];
+    }
+    return text;
+}
+
+// A document with one border in one cell, changed by `change`.
+Bytes broken_charts(const std::function<void(json& document, json& charts, std::vector<std::uint32_t>& words)>& change) {
+    return broken_document([&](json& d) {
+        std::vector<std::uint32_t> words(6 * 4, 0);
+        words[17] = 1;  // one reference, to border 0
+        json& charts = d["materials"][0]["extensions"][std::string(kPathDetailExtension)]["charts"];
+        charts = {{"bufferView", d["bufferViews"].size()}, {"width", 6}, {"height", 1}, {"borders", 1}, {"columns", 1}, {"rows", 1},
+                  {"origin", {0.0, 0.0}}, {"cell", {1.0, 1.0}}};
+        d["accessors"] = json::array({{{"componentType", 5126}, {"type", "VEC3"}, {"count", 3}}, {{"componentType", 5126}, {"type", "SCALAR"}, {"count", 3}}});
+        json& attributes = d["meshes"][0]["primitives"][0]["attributes"];
+        attributes["POSITION"] = 0, attributes["_BURIN_CHART"] = 1;
+        change(d, charts, words);
+        d["buffers"].push_back({{"byteLength", 96}, {"uri", "data:application/octet-stream;base64," + base64(bytes_from_words(words))}});
+        d["bufferViews"].push_back({{"buffer", 1}, {"byteOffset", 0}, {"byteLength", 96}});
+    });
+}
+
+void add_chart_cases(std::map<int, Bytes>& cases) {
+    using Words = std::vector<std::uint32_t>;
+    cases[2042] = broken_charts([](json& d, json&, Words&) { d["meshes"][0]["primitives"][0]["attributes"].erase("_BURIN_CHART"); });
+    cases[2043] = broken_charts([](json&, json& charts, Words&) { charts["cell"][1] = 0.0; });
+    cases[2044] = broken_charts([](json&, json& charts, Words&) { charts["borders"] = 2; });
+    cases[2045] = broken_charts([](json&, json&, Words& words) { words[20] = 1; });
+    cases[2046] = broken_charts([](json&, json&, Words& words) { words[13] = 0x7fc00000u; });
+}
+
 void add_grid_cases(std::map<int, Bytes>& cases) {
     cases[3001] = broken_cell(0, 1, [](CellCode& c) { c.first_reference = 500; });
     cases[3002] = broken_cell(4, 3, [](CellCode& c) { c.first_reference = 1; });
@@ -261,6 +297,7 @@ std::map<int, Bytes> all_cases() {
     add_extension_cases(cases);
     add_view_cases(cases);
     add_frame_cases(cases);
+    add_chart_cases(cases);
     add_residual_cases(cases);
     add_grid_cases(cases);
     add_element_cases(cases);
@@ -288,6 +325,21 @@ TEST(Validate, ResidualIsCheckedPartByPart) {
     EXPECT_EQ(numbers([](json& d, json&) { d["images"][0] = {{"bufferView", 0}, {"mimeType", "image/gif"}}; }), no_image);
     EXPECT_EQ(numbers([](json& d, json&) { d["images"][0] = {{"bufferView", 9}, {"mimeType", "image/png"}}; }), no_image);
     EXPECT_EQ(numbers([](json& d, json&) { d["images"][0] = {{"bufferView", 0}, {"mimeType", "image/png"}}; }), none);
+}
+
+TEST(Validate, ChartsAreCheckedPartByPart) {
+    using Words = std::vector<std::uint32_t>;
+    const auto numbers = [](const std::function<void(json&, json&, Words&)>& change) { return numbers_of(broken_charts(change)); };
+    const std::set<int> none, type{2005}, missing{2004}, range{2043}, side{2013}, vertices{2042}, list{2045};
+    EXPECT_EQ(numbers([](json&, json&, Words&) {}), none);
+    EXPECT_EQ(numbers([](json&, json& c, Words&) { c["origin"] = 5; }), type);
+    EXPECT_EQ(numbers([](json&, json& c, Words&) { c.erase("cell"); }), missing);
+    EXPECT_EQ(numbers([](json&, json& c, Words&) { c["columns"] = 0; }), range);
+    EXPECT_EQ(numbers([](json&, json& c, Words&) { c["height"] = 0; }), side);
+    EXPECT_EQ(numbers([](json& d, json&, Words&) { d["accessors"][1]["type"] = "VEC2"; }), vertices);
+    EXPECT_EQ(numbers([](json& d, json&, Words&) { d["accessors"][1]["count"] = 2; }), vertices);
+    EXPECT_EQ(numbers([](json&, json&, Words& w) { w[16] = 0xffffffffu; }), list);
+    EXPECT_EQ(numbers([](json&, json&, Words& w) { w[17] = 5; }), list);
 }
 
 TEST(Validate, EveryNumberHasAFileThatBreaksOnlyIt) {

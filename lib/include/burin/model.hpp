@@ -92,7 +92,8 @@ Result<MaterialTarget> find_material(const Model& model, const AttachOptions& op
 
 // The document with the pattern on one material, as binary glTF 2.0 that stands alone.
 // Adds: on primitives that are not flat the vertex attributes kFrameAttributes (frames.hpp), which tell how the surface
-// bends and stretches, in the space of the mesh; two bufferViews with the textures (32-bit little-endian words, row-major), the extension
+// bends and stretches, in the space of the mesh; where the uvs are cut, the table of borders over which rays go on and the attribute
+// kChartAttribute (charts.hpp); two bufferViews with the textures (32-bit little-endian words, row-major), the extension
 // BURIN_materials_path_detail on the material (listed in extensionsUsed only), and the fallback as PNG in the
 // core material: normalTexture, and occlusionTexture unless the material has one. The residual, if there is one, becomes
 // the extension's residualTexture, with a sampler that wraps like the pattern; where the fallback has no normal map, it is
@@ -119,6 +120,8 @@ struct Primitive {
     std::vector<std::uint32_t> indices;  // three per triangle, each below the vertex count
     int material = 0;                    // index into Asset::materials
     std::vector<SurfaceFrame> frames{};  // one per vertex, world space; none where the file has none
+    std::vector<float> charts{};         // number of each vertex' chart; none where the file has none
+    bool mirrored = false;               // the node's transform turned the triangles over; they are wound anew
 };
 
 struct MaterialInfo {
@@ -130,6 +133,7 @@ struct MaterialInfo {
     bool has_detail = false;  // then the two below hold
     PathDetail detail;
     PackedTextures textures;
+    std::vector<std::uint32_t> charts;  // the table of detail.charts; empty: there is none
     RgbaImage residual;      // what the residualTexture shows; width 0: there is none
 };
 

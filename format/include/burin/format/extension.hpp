@@ -26,6 +26,21 @@ inline constexpr int kPathDetailVersion = 1;
 inline constexpr std::array<const char*, 5> kFrameAttributes = {"_BURIN_DU", "_BURIN_DV", "_BURIN_DUU", "_BURIN_DUV",
                                                                 "_BURIN_DVV"};
 
+// And the number of a vertex' chart, section 14.1.
+inline constexpr const char* kChartAttribute = "_BURIN_CHART";
+
+// "charts": the table of borders over which rays go from chart to chart. No borders: there is none.
+struct ChartLayout {
+    int view = -1;                           // bufferView index; -1: not yet known
+    int width = 0, height = 0;               // texels
+    int borders = 0;                         // [1, 2^20]
+    int columns = 0, rows = 0;               // cells of the grid over the borders, [1, 1024] each
+    std::array<double, 2> origin{}, cell{};  // of that grid, metres of the pattern; cell > 0
+
+    std::size_t first_cell() const { return std::size_t(borders) * BURIN_BORDER_TEXELS; }  // texels
+    std::size_t first_reference() const { return first_cell() + (std::size_t(columns) * std::size_t(rows) + 1) / 2; }
+};
+
 struct PathDetail {
     int version = kPathDetailVersion;
     double size_u = 1.0, size_v = 1.0;    // metres per uv unit, > 0
@@ -40,6 +55,7 @@ struct PathDetail {
     Sections sections;
     int residual_texture = -1;    // "residualTexture": index into the document's textures; -1: there is none
     double residual_scale = 1.0;  // slope that a full red or green stands for, (0, 1e9]
+    ChartLayout charts;           // "charts"
 };
 
 // The extension object as compact JSON. Numbers are written so that parse_extension gives them back bit by
@@ -47,7 +63,7 @@ struct PathDetail {
 std::string write_extension(const PathDetail& detail);
 
 // Reads the extension object (the value, without its name). Unknown properties are passed over, as glTF asks;
-// `wrap`, `texCoord`, `baseOffset` and `outerLevel` have defaults ("repeat", 0, 0, 0), `residualTexture` and `data.functions` may
+// `wrap`, `texCoord`, `baseOffset` and `outerLevel` have defaults ("repeat", 0, 0, 0), `residualTexture`, `charts` and `data.functions` may
 // be absent, the others are required. Fails with invalid_input, naming property and value: not JSON, a property missing, of wrong type
 // or out of its range (the ranges above and layout.h's limits), sections that do not fit into the data
 // texture; unsupported: another version.
