@@ -34,6 +34,11 @@ BurinEnd burin_end(BurinElement e, bool at_start) {
     return end;
 }
 
+// Whether both sides of the profile run to the clip line: a smooth joint, or an end on another path's line.
+bool burin_clips_both(BurinEnd end) {
+    return end.priority == BURIN_PRIORITY_BOTH && (end.shape == BURIN_END_CLIP || end.shape == BURIN_END_TEE);
+}
+
 // A stretch of the ray that no end cuts yet.
 BurinPiece burin_whole(BurinElement e, float lo, float hi) {
     BurinPiece piece;
@@ -88,7 +93,7 @@ BurinPiece burin_clip_main(BurinPiece piece, BurinRay ray, BurinEnd end, float s
                             float slack) {
     bool both = end.priority == BURIN_PRIORITY_BOTH;
     bool own = burin_own_sector(end, side);
-    bool clipped = own || (both && end.shape == BURIN_END_CLIP);
+    bool clipped = own || burin_clips_both(end);
     vec2 across = burin_clip_normal(end);
     if (clipped) piece = burin_clip(piece, ray, end.vertex - across * (both ? slack : 0.0f), across);
     if (clipped && (both || end.shape == BURIN_CORNER_MITRE)) return piece;
@@ -130,7 +135,7 @@ bool burin_leaves_alone(BurinPiece piece, BurinRay ray, BurinEnd end) {
     vec2 b = ray.slope * piece.hi - end.vertex;
     if (min(dot(a, end.inward), dot(b, end.inward)) < 0.0f) return false;
     bool clipped = end.priority == BURIN_PRIORITY_LEFT || end.priority == BURIN_PRIORITY_RIGHT ||
-                   (end.priority == BURIN_PRIORITY_BOTH && end.shape == BURIN_END_CLIP);
+                   burin_clips_both(end);
     vec2 across = burin_clip_normal(end);
     return !clipped || min(dot(a, across), dot(b, across)) >= 0.0f;
 }
@@ -139,7 +144,7 @@ bool burin_leaves_alone(BurinPiece piece, BurinRay ray, BurinEnd end) {
 bool burin_has_beyond(BurinEnd end, float side, bool curved, bool flank) {
     bool both = end.priority == BURIN_PRIORITY_BOTH;
     if (flank) return both && end.shape == BURIN_END_HIP && curved;
-    if (both) return end.shape != BURIN_END_CLIP;
+    if (both) return !burin_clips_both(end);
     return burin_own_sector(end, side) && end.shape != BURIN_CORNER_MITRE;
 }
 

@@ -101,7 +101,8 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
             if (from_inside != to_inside) {
                 float t = burin_crossing(e, style, piece, ray, range, inside, vec2(middle, 0.0f),
                                          vec2(piece.side, 0.0f), false);
-                vec2 q = vec2(middle, mix(qa.y, qb.y, (t - range.x) / (range.y - range.x)));
+                // Where the height scale changes, the height does not run straight.
+                vec2 q = vec2(middle, burin_section(e, style, piece, ray, t).q.y);
                 if (from_inside) {
                     half_range.y = t;
                     hb = q;
@@ -116,14 +117,15 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
 }
 
 // Every part of one element over the stretch t0-t1 of equal ground.
-void burin_visit(uint reference, BurinRay ray, vec2 centre, vec2 stretch, float ground, BURIN_INOUT(BurinPass) pass) {
+void burin_visit(uint reference, BurinRay ray, vec2 centre, bool stepped, vec2 stretch, float ground,
+                 BURIN_INOUT(BurinPass) pass) {
     BurinElement e = burin_element(reference, ray.origin, centre);
     BurinStyle style = burin_style(e.style);
     float same = BURIN_SAME_LEVEL * burin_map.depth;
     bool left = abs(style.level - ground) < same;
     bool right = abs(style.right_level - ground) < same;
     if (!left && !right) return;
-    e.slack = burin_clip_slack(e, style);
+    if (stepped) e.slack = burin_clip_slack(e, style);
     float pad = BURIN_SAME_DROP * burin_map.depth + 1.0e-5f * (stretch.y - stretch.x);
     BurinPiece whole = burin_whole(e, stretch.x - pad, stretch.y + pad);
     BurinEnd start = burin_end(e, true);
@@ -166,9 +168,10 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
         pass.add_mark = hit.mark;
         pass.air_mark = hit.mark;
         uvec4 texel = uvec4(0u, 0u, 0u, 0u);
+        bool stepped = (cell.flags & BURIN_CELL_FLAG_STEP) != 0u;
         for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
             if (i >= cell.count) break;
-            burin_visit(burin_listed(cell, i, texel), hit.ray, hit.centre, stretch, ground, pass);
+            burin_visit(burin_listed(cell, i, texel), hit.ray, hit.centre, stepped, stretch, ground, pass);
         }
         if (pass.add < pass.ground) {
             at_add = true;
