@@ -107,7 +107,8 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     float high = max(style.level - cell.highest, cell.lowest - style.level);
     BurinReachOf reach;
     reach.spread = length(ray.slope) * high;
-    float shadow = shadows ? max(style.level - cell.highest, 0.0f) * length(light_slope) : 0.0f;
+    bool stands_out = style.level - cell.highest > BURIN_FILM * burin_map.depth;
+    float shadow = shadows && stands_out ? (burin_map.drop_range.y - cell.highest) * length(light_slope) : 0.0f;
     vec2 place = ray.slope * style.level;
     reach.along = footprint.radius + reach.spread + shadow;
     reach.across = wide + footprint.radius + reach.spread + shadow;
@@ -128,6 +129,7 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     if (limits.y < limits.x) return;
     stretch.room = footprint.radius;
     uint mask = 0u;
+    region.deep_shadow = 0u;
     int pieces = burin_piece_count(e, limits, footprint.radius);
     float centre = stretch.middle;
     for (int i = 0; i < 8; ++i) {
@@ -155,7 +157,9 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     float area = region.strip_area;
     region.strip_area = 0.0f;
     if (area * region.covered_area > BURIN_LEAST_AREA) region.special = region.special | (region.covered & mask);
+    region.special = region.special | (region.covered & region.deep_shadow) | (region.deep_shadows & mask);
     region.covered = region.covered | mask;
+    region.deep_shadows = region.deep_shadows | region.deep_shadow;
     region.covered_area = region.covered_area + area;
     if (area > 0.0f) ++region.elements;
 }
@@ -180,6 +184,8 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
     region.ground = ground;
     region.covered = 0u;
     region.special = 0u;
+    region.deep_shadows = 0u;
+    region.deep_shadow = 0u;
     region.covered_area = 0.0f;
     region.strip_area = 0.0f;
     region.elements = 0;
