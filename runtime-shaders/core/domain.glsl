@@ -56,10 +56,12 @@ BurinPiece burin_whole(BurinElement e, float lo, float hi) {
     return piece;
 }
 
-// Keeps where (p - anchor) . gradient >= 0, with an overlap; the gradient has about length 1.
+// Keeps where (p - anchor) . gradient >= 0, with an overlap; the gradient has about length 1. Domains that adjoin share the
+// anchor, so that only what is calculated from it and from the ray is rounded.
 BurinPiece burin_clip(BurinPiece piece, BurinRay ray, vec2 anchor, vec2 gradient) {
     float rate = dot(gradient, ray.slope);
-    float value = BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y) - dot(gradient, anchor);
+    float farthest = abs(anchor.x) + abs(anchor.y) + (abs(ray.slope.x) + abs(ray.slope.y)) * piece.hi;
+    float value = BURIN_OVERLAP * farthest - dot(gradient, anchor);
     if (rate == 0.0f) {
         if (value < 0.0f) piece.hi = piece.lo - 1.0f;
         return piece;

@@ -5,6 +5,9 @@
 // A facet's outer side lies to the left of its direction (profiles run left to right). To cross it inwards enters what
 // the element adds and leaves what it cuts. A cut is closed by a vertical ray upwards from each end of its run of facets.
 
+// Height above every point of a profile.
+#define BURIN_FAR_UP 1.0e4f
+
 // What the passes over a cell's elements have found so far.
 struct BurinPass {
     float from;      // drop at which the ray is known to be in air
@@ -131,46 +134,48 @@ float burin_facet_height(vec2 a, vec2 b, float x) {
     return a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
 }
 
-// Where a stretch crosses the line of a facet, parted so that each part crosses it once at most.
+// Where a stretch crosses the line of a border, parted so that each part crosses it once at most.
 struct BurinCrossings {
-    float middle;   // drop where the parts meet; the end of the stretch where there is one part
-    float value;    // distance from the line there, times the facet's length
-    bool first;     // whether the crossing of the first part lies on the facet
+    vec2 across;  // normal of the line
+    float middle;  // drop where the parts meet; the end of the stretch where there is one part
+    vec3 values;   // along the normal, where the stretch begins, at the middle and where it ends
+    bool first;    // whether the crossing of the first part lies on the border
     bool second;
 };
 
-// Of the facet from `last` to `point`, which lie to the left of the ray or not. Ends of the stretch on different sides of the
-// line are joined by one crossing. A bent one whose ends lie on the same side may come through it and go back: a parabola
-// through the middle, asked for where `known` is false, tells where it turns.
+// Of the border from `last` to `point`, which the ray passes on their left or not; `sense`: +1, or -1 where it is crossed
+// inwards from its right. Ends of the stretch on different sides of the line are joined by one crossing, which lies on the
+// border where `odd` says so. A bent stretch whose ends lie on the same side may come through and go back: a parabola through
+// its middle `qm`, asked for where `known` is false, tells where it turns.
 BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
-                               bool straight, vec2 last, vec2 point, bool last_left, bool left, BURIN_INOUT(bool) known,
-                               BURIN_INOUT(vec2) qm) {
+                               bool straight, vec2 last, vec2 point, float sense, bool last_left, bool left, bool odd,
+                               BURIN_INOUT(bool) known, BURIN_INOUT(vec2) qm) {
     vec2 way = point - last;
-    vec2 across = vec2(-way.y, way.x);
-    float fa = dot(qa - last, across);
-    float fb = dot(qb - last, across);
     BurinCrossings found;
+    found.across = vec2(-way.y, way.x) * sense;
+    float fa = dot(qa - last, found.across);
+    float fb = dot(qb - last, found.across);
     found.middle = range.y;
-    found.value = fb;
-    found.first = left != last_left;
+    found.values = vec3(fa, fb, fb);
+    found.first = odd;
     found.second = false;
-    float near = min(abs(fa), abs(fb));
-    if (straight || (fa > 0.0f) != (fb > 0.0f) || near > 0.1f * length(way)) return found;
+    bool apart = min(abs(fa), abs(fb)) > 0.1f * length(way);
+    if (straight || apart || (fa > 0.0f) != (fb > 0.0f)) return found;
     if (!known) qm = burin_section(e, style, piece, ray, mix(range.x, range.y, 0.5f)).q;
     known = true;
-    float fm = dot(qm - last, across);
+    float fm = dot(qm - last, found.across);
     float bend = 2.0f * (fa - 2.0f * fm + fb);
     float turn = (3.0f * fa - 4.0f * fm + fb) / (2.0f * bend);
     if (!(turn > 0.0f && turn < 1.0f) || (fa - bend * turn * turn > 0.0f) == (fa > 0.0f)) return found;
     float t = mix(range.x, range.y, turn);
     vec2 q = burin_section(e, style, piece, ray, t).q;
-    float value = dot(q - last, across);
+    float value = dot(q - last, found.across);
     if ((value > 0.0f) == (fa > 0.0f)) return found;
     found.middle = t;
-    found.value = value;
+    found.values.y = value;
     // A point of the line between the two crossings has the ray on its other side, and lies at a height that the stretch has.
     vec2 d = qb - qa;
-    bool behind = (d.x * across.y - d.y * across.x > 0.0f) == (fa > 0.0f);
+    bool behind = (d.x * found.across.y - d.y * found.across.x > 0.0f) == (fa > 0.0f);
     bool last_between = last_left == behind && last.y < qa.y && last.y > qb.y;
     bool between = left == behind && point.y < qa.y && point.y > qb.y;
     float along = dot(q - last, way);
@@ -221,21 +226,25 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
         }
         // The facet itself, and the vertical ray over the point where a run of cutting facets begins or ends.
         bool above = (d.x > 0.0f) != last_left;
+        int edges = beside ? 0 : (internal != last_internal ? 4 : 2);
         BurinCrossings on;
-        if (facet && !beside)
-            on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, point, last_left, left, known, qm);
-        int edges = beside ? 0 : (internal != last_internal ? 3 : 2);
         for (int k = facet ? 0 : 2; k < edges; ++k) {
-            if (!(k == 0 ? on.first : (k == 1 ? on.second : above))) continue;
-            vec2 across = k < 2 ? vec2(last.y - point.y, point.x - last.x) : vec2(internal ? 1.0f : -1.0f, 0.0f);
-            vec2 part = vec2(k == 1 ? on.middle : range.x, k == 0 ? on.middle : range.y);
-            float fa = k == 1 ? on.value : dot(qa - last, across);
-            float fb = k == 0 ? on.value : dot(qb - last, across);
-            if ((fa > 0.0f) == (fb > 0.0f)) continue;
-            float t = burin_crossing(e, style, piece, ray, part, vec2(fa, fb), last, across, straight);
-            if (k < 2 && t > add_range.x && t < add_range.y) burin_note_add(t, i - 1, fa > 0.0f, found);
-            if ((k == 2 || internal) && t > cut_from)
-                burin_note_cut(t, k < 2 ? i - 1 : BURIN_FACET_WALL, fa > 0.0f, found);
+            if (k == 0)
+                on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, point, 1.0f, last_left, left,
+                                     last_left != left, known, qm);
+            if (k == 2)
+                on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, last + vec2(0.0f, BURIN_FAR_UP),
+                                     internal ? -1.0f : 1.0f, last_left, false, above, known, qm);
+            bool later = k % 2 == 1;
+            if (!(later ? on.second : on.first)) continue;
+            vec2 part = later ? vec2(on.middle, range.y) : vec2(range.x, on.middle);
+            vec2 values = later ? vec2(on.values.y, on.values.z) : vec2(on.values.x, on.values.y);
+            if ((values.x > 0.0f) == (values.y > 0.0f)) continue;
+            float t = burin_crossing(e, style, piece, ray, part, values, last, on.across, straight);
+            bool inwards = values.x > 0.0f;
+            if (k < 2 && t > add_range.x && t < add_range.y) burin_note_add(t, i - 1, inwards, found);
+            if ((k >= 2 || internal) && t > cut_from)
+                burin_note_cut(t, k < 2 ? i - 1 : BURIN_FACET_WALL, inwards, found);
         }
         last = point;
         last_left = left;
