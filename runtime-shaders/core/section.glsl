@@ -143,6 +143,17 @@ struct BurinCrossings {
     bool second;
 };
 
+// Where in [0, 1] the parabola through fa at 0, f at s and fb at 1 turns; -1 where it clearly does so on fa's side of 0.
+float burin_turn(float fa, float s, float f, float fb) {
+    float rate = (f - fa) / s;
+    float bend = (fb - fa - rate) / (1.0f - s);
+    float start = rate - bend * s;
+    float turn = -0.5f * start / bend;
+    if (!(turn > 0.0f && turn < 1.0f)) return -1.0f;
+    float left = (fa - bend * turn * turn) * (fa > 0.0f ? 1.0f : -1.0f);
+    return left < 0.1f * abs(bend) ? turn : -1.0f;
+}
+
 // Of the border from `last` to `point`, which the ray passes on their left or not; `sense`: +1, or -1 where it is crossed
 // inwards from its right. Ends of the stretch on different sides of the line are joined by one crossing, which lies on the
 // border where `odd` says so. A bent stretch whose ends lie on the same side may come through and go back: a parabola through
@@ -163,15 +174,18 @@ BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piec
     if (straight || apart || (fa > 0.0f) != (fb > 0.0f)) return found;
     if (!known) qm = burin_section(e, style, piece, ray, mix(range.x, range.y, 0.5f)).q;
     known = true;
-    float fm = dot(qm - last, found.across);
-    float bend = 2.0f * (fa - 2.0f * fm + fb);
-    float turn = (3.0f * fa - 4.0f * fm + fb) / (2.0f * bend);
-    if (!(turn > 0.0f && turn < 1.0f) || (fa - bend * turn * turn > 0.0f) == (fa > 0.0f)) return found;
-    float t = mix(range.x, range.y, turn);
-    vec2 q = burin_section(e, style, piece, ray, t).q;
+    float turn = 0.5f;
+    vec2 q = qm;
     float value = dot(q - last, found.across);
+    for (int n = 0; n < 2; ++n) {
+        if ((value > 0.0f) != (fa > 0.0f)) break;
+        turn = burin_turn(fa, turn, value, fb);
+        if (turn < 0.0f) return found;
+        q = burin_section(e, style, piece, ray, mix(range.x, range.y, turn)).q;
+        value = dot(q - last, found.across);
+    }
     if ((value > 0.0f) == (fa > 0.0f)) return found;
-    found.middle = t;
+    found.middle = mix(range.x, range.y, turn);
     found.values.y = value;
     // A point of the line between the two crossings has the ray on its other side, and lies at a height that the stretch has.
     vec2 d = qb - qa;
@@ -183,6 +197,21 @@ BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piec
     else found.first = !between && along > 0.0f && along < dot(way, way);
     found.second = between != last_between ? !found.first : found.first;
     return found;
+}
+
+// Notes the crossings of one border, which bounds the add between the drops add_range, and the cut after cut_from.
+void burin_note_crossings(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, BurinCrossings on,
+                          vec2 anchor, bool straight, vec2 add_range, float cut_from, int facet, BURIN_INOUT(BurinEvents) found) {
+    for (int k = 0; k < 2; ++k) {
+        if (!(k == 0 ? on.first : on.second)) continue;
+        vec2 part = k == 0 ? vec2(range.x, on.middle) : vec2(on.middle, range.y);
+        vec2 values = k == 0 ? vec2(on.values.x, on.values.y) : vec2(on.values.y, on.values.z);
+        if ((values.x > 0.0f) == (values.y > 0.0f)) continue;
+        float t = burin_crossing(e, style, piece, ray, part, values, anchor, on.across, straight);
+        bool inwards = values.x > 0.0f;
+        if (t > add_range.x && t < add_range.y) burin_note_add(t, facet, inwards, found);
+        if (t > cut_from) burin_note_cut(t, facet, inwards, found);
+    }
 }
 
 // The next crossings of a profile's borders: of its add between the drops add_range, of its cut after cut_from.
@@ -226,25 +255,17 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
         }
         // The facet itself, and the vertical ray over the point where a run of cutting facets begins or ends.
         bool above = (d.x > 0.0f) != last_left;
-        int edges = beside ? 0 : (internal != last_internal ? 4 : 2);
-        BurinCrossings on;
-        for (int k = facet ? 0 : 2; k < edges; ++k) {
-            if (k == 0)
-                on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, point, 1.0f, last_left, left,
-                                     last_left != left, known, qm);
-            if (k == 2)
-                on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, last + vec2(0.0f, BURIN_FAR_UP),
-                                     internal ? -1.0f : 1.0f, last_left, false, above, known, qm);
-            bool later = k % 2 == 1;
-            if (!(later ? on.second : on.first)) continue;
-            vec2 part = later ? vec2(on.middle, range.y) : vec2(range.x, on.middle);
-            vec2 values = later ? vec2(on.values.y, on.values.z) : vec2(on.values.x, on.values.y);
-            if ((values.x > 0.0f) == (values.y > 0.0f)) continue;
-            float t = burin_crossing(e, style, piece, ray, part, values, last, on.across, straight);
-            bool inwards = values.x > 0.0f;
-            if (k < 2 && t > add_range.x && t < add_range.y) burin_note_add(t, i - 1, inwards, found);
-            if ((k >= 2 || internal) && t > cut_from)
-                burin_note_cut(t, k < 2 ? i - 1 : BURIN_FACET_WALL, inwards, found);
+        int borders = beside ? 0 : (internal != last_internal ? 2 : 1);
+        for (int k = facet ? 0 : 1; k < borders; ++k) {
+            bool own = k == 0;
+            vec2 next = own ? point : last + vec2(0.0f, BURIN_FAR_UP);
+            float sense = own || !internal ? 1.0f : -1.0f;
+            BurinCrossings on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, next, sense, last_left,
+                                                own && left, own ? last_left != left : above, known, qm);
+            vec2 add_part = own ? add_range : vec2(1.0f, 0.0f);
+            float cuts_after = own && !internal ? 1.0e30f : cut_from;
+            burin_note_crossings(e, style, piece, ray, range, on, last, straight, add_part, cuts_after,
+                                 own ? i - 1 : BURIN_FACET_WALL, found);
         }
         last = point;
         last_left = left;
