@@ -172,17 +172,17 @@ BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piec
     found.second = false;
     bool apart = min(abs(fa), abs(fb)) > 0.1f * length(way);
     if (straight || apart || (fa > 0.0f) != (fb > 0.0f)) return found;
-    if (!known) qm = burin_section(e, style, piece, ray, mix(range.x, range.y, 0.5f)).q;
-    known = true;
     float turn = 0.5f;
     vec2 q = qm;
-    float value = dot(q - last, found.across);
-    for (int n = 0; n < 2; ++n) {
-        if ((value > 0.0f) != (fa > 0.0f)) break;
-        turn = burin_turn(fa, turn, value, fb);
-        if (turn < 0.0f) return found;
-        q = burin_section(e, style, piece, ray, mix(range.x, range.y, turn)).q;
+    float value = fa;
+    for (int n = 0; n < 3; ++n) {
+        if (n > 0) turn = burin_turn(fa, turn, value, fb);
+        if (turn < 0.0f) break;
+        if (n > 0 || !known) q = burin_section(e, style, piece, ray, mix(range.x, range.y, turn)).q;
+        if (n == 0) qm = q;
+        known = true;
         value = dot(q - last, found.across);
+        if ((value > 0.0f) != (fa > 0.0f)) break;
     }
     if ((value > 0.0f) == (fa > 0.0f)) return found;
     found.middle = mix(range.x, range.y, turn);
@@ -247,9 +247,10 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
         bool beside = facet && (max(point.x, last.x) < b_low || min(point.x, last.x) > b_high);
         bool left = last_left;
         if (!beside) {
-            if (!last_known && i > 0) last_left = burin_passes_left(e, style, piece, ray, range, qa, d, last, straight);
-            left = last_left;
-            if (i < style.count) left = burin_passes_left(e, style, piece, ray, range, qa, d, point, straight);
+            for (int k = last_known || i == 0 ? 1 : 0; k < 2; ++k) {
+                left = burin_passes_left(e, style, piece, ray, range, qa, d, k == 0 ? last : point, straight);
+                if (k == 0 || i == style.count) last_left = left;
+            }
             if (facet && burin_spans(last, point, qe.x) && burin_facet_height(last, point, qe.x) > qe.y + BURIN_FILM)
                 found.add_at_end = !found.add_at_end;
         }

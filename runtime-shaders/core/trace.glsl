@@ -80,13 +80,16 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
     vec2 range = vec2(piece.lo, piece.lo);
     vec2 qa = vec2(0.0f, 0.0f);
     vec2 qb = vec2(0.0f, 0.0f);
+    vec2 heights = vec2(1.0f, 1.0f);  // scales at both ends
     for (int i = 0; i <= BURIN_MAX_WAVE_SEGMENTS + 1; ++i) {
         if (i > count) break;
         float to = i == count ? piece.hi : (i == above ? part : mix(part, piece.hi, float(i - above) / float(count - above)));
         if (i < above) to = mix(piece.lo, part, float(i) / float(above));
         range = vec2(range.y, to);
         qa = qb;
-        qb = burin_section(e, style, piece, ray, range.y).q;
+        BurinSection section = burin_section(e, style, piece, ray, range.y);
+        qb = section.q;
+        heights = vec2(heights.y, section.height);
         if (i == 0) continue;
         vec2 half_range = range;
         vec2 ha = qa;
@@ -101,8 +104,9 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
             if (from_inside != to_inside) {
                 float t = burin_crossing(e, style, piece, ray, range, inside, vec2(middle, 0.0f),
                                          vec2(piece.side, 0.0f), false);
-                // Where the height scale changes, the height does not run straight.
-                vec2 q = vec2(middle, burin_section(e, style, piece, ray, t).q.y);
+                // Where the height scale changes, it runs nearly straight, the height that it divides does not.
+                float height = mix(heights.x, heights.y, (t - range.x) / (range.y - range.x));
+                vec2 q = vec2(middle, (style.level - t) / (height * burin_map.depth));
                 if (from_inside) {
                     half_range.y = t;
                     hb = q;
