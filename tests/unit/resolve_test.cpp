@@ -67,15 +67,12 @@ int count(const ResolvedPattern& pattern, JunctionKind kind) {
     return n;
 }
 
-bool is_clip(const ElementEnd& end) {
-    return end.priority == Priority::both && end.shape == static_cast<int>(EndShape::clip);
+bool is(const ElementEnd& end, EndShape shape) {
+    return end.priority == Priority::both && end.shape == static_cast<int>(shape);
 }
-bool is_tee(const ElementEnd& end) {
-    return end.priority == Priority::both && end.shape == static_cast<int>(EndShape::tee);
-}
-bool is_hip(const ElementEnd& end) {
-    return end.priority == Priority::both && end.shape == static_cast<int>(EndShape::hip);
-}
+bool is_clip(const ElementEnd& end) { return is(end, EndShape::clip); }
+bool is_tee(const ElementEnd& end) { return is(end, EndShape::tee); }
+bool is_hip(const ElementEnd& end) { return is(end, EndShape::hip); }
 
 // ---- profiles
 
