@@ -90,9 +90,10 @@
 #define BURIN_CORNER_BEVEL 1u
 #define BURIN_CORNER_ROUND 2u
 // shape with BOTH:
-#define BURIN_END_CLIP 0u   // both sides run to the clip line: smooth joints and T-junctions
+#define BURIN_END_CLIP 0u   // both sides run to the clip line: a smooth joint
 #define BURIN_END_HIP 1u    // isolated end, profile at sign(b) max(|b|, t)
 #define BURIN_END_ROUND 2u  // isolated end, profile at sign(b) hypot(b, t)
+#define BURIN_END_TEE 3u    // as CLIP, and the path ends there: on another path's line, or on the border of a map
 
 // Style texel: x: 0-15 profile's first texel (from the start of the profile section), 16-21 number of points,
 //                 22 step (its two levels differ), 23-31 material

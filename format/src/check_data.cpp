@@ -11,11 +11,12 @@ std::string text(std::uint32_t number) { return std::to_string(number); }
 
 bool uses_clip_line(const EndCode& end) {
     if (end.priority == BURIN_PRIORITY_NONE) return false;
-    return end.priority != BURIN_PRIORITY_BOTH || end.shape == BURIN_END_CLIP;
+    return end.priority != BURIN_PRIORITY_BOTH || end.shape == BURIN_END_CLIP || end.shape == BURIN_END_TEE;
 }
 
 void check_end(const EndCode& end, const char* name, const std::string& place, Reporter& reporter) {
-    const std::uint32_t shapes = end.priority == BURIN_PRIORITY_NONE ? 1 : 3;
+    const bool both = end.priority == BURIN_PRIORITY_BOTH;
+    const std::uint32_t shapes = end.priority == BURIN_PRIORITY_NONE ? 1 : both ? 4 : 3;
     if (end.shape >= shapes) {
         reporter.report(4005,
                         std::string(name) + " has priority " + text(end.priority) + " with shape " +

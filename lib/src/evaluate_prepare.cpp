@@ -35,8 +35,9 @@ PreparedEnd prepare_end(const ElementEnd& end, Vec2 vertex, Vec2 along, bool at_
     out.vertex = vertex;
     out.outward = at_start ? -along : along;
     out.priority = end.priority;
+    // A joint and an end on another path's line act alike.
     if (end.priority == Priority::both)
-        out.end = static_cast<EndShape>(end.shape);
+        out.end = end.clips_both() ? EndShape::clip : static_cast<EndShape>(end.shape);
     else
         out.corner = static_cast<CornerShape>(end.shape);
     const Vec2 clip{std::cos(end.clip_angle), std::sin(end.clip_angle)};

@@ -331,9 +331,10 @@ Packer::Failure Packer::encode_points(std::size_t index, ElementCode& code) cons
 Packer::Failure Packer::encode_end(std::size_t index, const ElementEnd& end, EndCode& code) const {
     code.priority = static_cast<std::uint32_t>(end.priority);
     code.shape = end.priority == Priority::none ? 0u : end.shape;
-    const bool clipped = end.priority == Priority::left || end.priority == Priority::right ||
-                         (end.priority == Priority::both && end.shape == BURIN_END_CLIP);
-    if (code.shape > 2 || (clipped && !encode_clip_angle(end.clip_angle, code.clip_angle))) {
+    const bool clipped =
+        end.priority == Priority::left || end.priority == Priority::right || end.clips_both();
+    const std::uint32_t last = end.priority == Priority::both ? BURIN_END_TEE : BURIN_CORNER_ROUND;
+    if (code.shape > last || (clipped && !encode_clip_angle(end.clip_angle, code.clip_angle))) {
         return invalid("element " + text(index) + " has an end of shape " + text(end.shape) +
                        " and clip angle " + std::to_string(end.clip_angle));
     }

@@ -136,7 +136,7 @@ bool allow(const EndFrame& end, bool at_start, Vec2 p, double b, Placement& plac
     if (end.end.priority == Priority::none) return beyond <= 0.0;
     if (end.end.priority == Priority::both) {
         const EndShape shape = static_cast<EndShape>(end.end.shape);
-        if (shape == EndShape::clip) return dot(r, end.clip_normal) >= 0.0;
+        if (end.end.clips_both()) return dot(r, end.clip_normal) >= 0.0;
         if (beyond <= 0.0) return true;
         if (shape == EndShape::round) {
             set_at_vertex(placement, at_start, sign_of(b) * norm(r), direction(r) * sign_of(b));
@@ -171,7 +171,7 @@ void judge_end(const EndFrame& end, Vec2 p, double b, double widest, double marg
             reach.plain &= within;
             return;
         case Priority::both:
-            if (static_cast<EndShape>(end.end.shape) == EndShape::clip) {
+            if (end.end.clips_both()) {
                 reach.possible &= inside >= -margin;
                 reach.plain &= inside >= margin;
             } else {

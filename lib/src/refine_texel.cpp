@@ -404,8 +404,7 @@ bool TexelModel::joined_smoothly(const std::vector<Actor>& actors) const {
         if (!a.reach.plain) {
             const ElementEnd& start = a.feature->frame.start.end;
             const ElementEnd& end = a.feature->frame.end.end;
-            if (start.priority != Priority::both || end.priority != Priority::both || start.shape != 0 || end.shape != 0)
-                return false;
+            if (!start.clips_both() || !end.clips_both()) return false;
         }
         if (previous && dot(previous->foot.tangent, a.foot.tangent) < 0.99) return false;
         if (previous && std::abs(previous->foot.offset - a.foot.offset) > 0.1) return false;

@@ -141,7 +141,7 @@ void join_cluster(Work& work, const std::vector<EndRef>& ends) {
 ElementEnd clip_or_hip(Vec2 tangent, Vec2 clip) {
     constexpr double kSmallest = 0.12;  // sine of about 7 degrees
     if (std::abs(cross(tangent, clip)) < kSmallest) return both(EndShape::hip);
-    return both(EndShape::clip, line_angle(clip));
+    return both(EndShape::tee, line_angle(clip));
 }
 
 void find_priorities(Work& work) {

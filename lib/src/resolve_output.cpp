@@ -17,7 +17,7 @@ double end_reach(const ElementEnd& end, Vec2 tangent, double half_width) {
     const Vec2 clip = {std::cos(end.clip_angle), std::sin(end.clip_angle)};
     if (end.priority == Priority::none) return half_width;
     if (end.priority == Priority::both) {
-        if (end.shape != static_cast<std::uint8_t>(EndShape::clip)) return std::sqrt(2.0) * half_width;
+        if (!end.clips_both()) return std::sqrt(2.0) * half_width;
         // The clip line leaves the strip at half_width / sin of the angle between line and tangent.
         return half_width / std::max(std::abs(cross(tangent, clip)), 0.1);
     }

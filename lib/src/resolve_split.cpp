@@ -79,7 +79,7 @@ Cut cut_at(const Work& work, const ArcCrossing& crossing, int groove) {
     const double half_width = half_width_of(path, element);
     const Passage passage = passage_of(step, step_element, crossing.s[1 - groove], along, line, half_width);
     Cut cut{static_cast<double>(element) + crossing.s[groove], clip_or_hip(along, line), 0.0, 0.0};
-    if (passage.straight && cut.end.shape == static_cast<std::uint8_t>(EndShape::clip)) return cut;
+    if (passage.straight && cut.end.clips_both()) return cut;
     cut.end = {};
     cut.forward = 1.1 * passage.forward + 0.1 * half_width;
     cut.back = 1.1 * passage.back + 0.1 * half_width;

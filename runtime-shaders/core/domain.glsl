@@ -34,6 +34,11 @@ BurinEnd burin_end(BurinElement e, bool at_start) {
     return end;
 }
 
+// Whether both sides of the profile run to the clip line: a smooth joint, or an end on another path's line.
+bool burin_clips_both(BurinEnd end) {
+    return end.priority == BURIN_PRIORITY_BOTH && (end.shape == BURIN_END_CLIP || end.shape == BURIN_END_TEE);
+}
+
 // A stretch of the ray that no end cuts yet.
 BurinPiece burin_whole(BurinElement e, float lo, float hi) {
     BurinPiece piece;
@@ -51,10 +56,12 @@ BurinPiece burin_whole(BurinElement e, float lo, float hi) {
     return piece;
 }
 
-// Keeps where (p - anchor) . gradient >= 0, with an overlap; the gradient has about length 1.
+// Keeps where (p - anchor) . gradient >= 0, with an overlap; the gradient has about length 1. Domains that adjoin share the
+// anchor, so that only what is calculated from it and from the ray is rounded.
 BurinPiece burin_clip(BurinPiece piece, BurinRay ray, vec2 anchor, vec2 gradient) {
     float rate = dot(gradient, ray.slope);
-    float value = BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y) - dot(gradient, anchor);
+    float farthest = abs(anchor.x) + abs(anchor.y) + (abs(ray.slope.x) + abs(ray.slope.y)) * piece.hi;
+    float value = BURIN_OVERLAP * farthest - dot(gradient, anchor);
     if (rate == 0.0f) {
         if (value < 0.0f) piece.hi = piece.lo - 1.0f;
         return piece;
@@ -88,7 +95,7 @@ BurinPiece burin_clip_main(BurinPiece piece, BurinRay ray, BurinEnd end, float s
                             float slack) {
     bool both = end.priority == BURIN_PRIORITY_BOTH;
     bool own = burin_own_sector(end, side);
-    bool clipped = own || (both && end.shape == BURIN_END_CLIP);
+    bool clipped = own || burin_clips_both(end);
     vec2 across = burin_clip_normal(end);
     if (clipped) piece = burin_clip(piece, ray, end.vertex - across * (both ? slack : 0.0f), across);
     if (clipped && (both || end.shape == BURIN_CORNER_MITRE)) return piece;
@@ -130,7 +137,7 @@ bool burin_leaves_alone(BurinPiece piece, BurinRay ray, BurinEnd end) {
     vec2 b = ray.slope * piece.hi - end.vertex;
     if (min(dot(a, end.inward), dot(b, end.inward)) < 0.0f) return false;
     bool clipped = end.priority == BURIN_PRIORITY_LEFT || end.priority == BURIN_PRIORITY_RIGHT ||
-                   (end.priority == BURIN_PRIORITY_BOTH && end.shape == BURIN_END_CLIP);
+                   burin_clips_both(end);
     vec2 across = burin_clip_normal(end);
     return !clipped || min(dot(a, across), dot(b, across)) >= 0.0f;
 }
@@ -139,7 +146,7 @@ bool burin_leaves_alone(BurinPiece piece, BurinRay ray, BurinEnd end) {
 bool burin_has_beyond(BurinEnd end, float side, bool curved, bool flank) {
     bool both = end.priority == BURIN_PRIORITY_BOTH;
     if (flank) return both && end.shape == BURIN_END_HIP && curved;
-    if (both) return end.shape != BURIN_END_CLIP;
+    if (both) return !burin_clips_both(end);
     return burin_own_sector(end, side) && end.shape != BURIN_CORNER_MITRE;
 }
 

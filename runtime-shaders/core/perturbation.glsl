@@ -136,8 +136,8 @@ float burin_widest(BurinElement e) {
     return width * min(w.x + w.y + w.z + w.w, 4.0f);
 }
 
-// A clip line that ends a feature on the path line of another one is turned by the rounding of its angle. The feature
-// runs on by what that can amount to at the rim, or a sheet of solid would stand between the two.
+// A clip line that ends a feature on the path line of a step is turned by the rounding of its angle. The feature runs on by
+// what that can amount to at the rim, or a sheet of solid would stand between the two; the ground's level ends it there.
 float burin_clip_slack(BurinElement e, BurinStyle style) {
     float width = max(e.scales.x, e.scales.y);
     if (e.waved) width = max(burin_scales(e, 0.0f).scale.x, burin_scales(e, 1.0f).scale.x);

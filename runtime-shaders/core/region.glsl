@@ -18,7 +18,7 @@ struct BurinReachOf {
 
 // Whether stripes describe the end: joints, corners with a mitre, and ends on another path's line.
 bool burin_end_is_plain(BurinEnd end) {
-    if (end.priority == BURIN_PRIORITY_BOTH) return end.shape == BURIN_END_CLIP;
+    if (end.priority == BURIN_PRIORITY_BOTH) return burin_clips_both(end);
     return end.priority != BURIN_PRIORITY_NONE && end.shape == BURIN_CORNER_MITRE;
 }
 
@@ -44,9 +44,10 @@ uint burin_end_mask(BurinEnd end, BurinFootprint footprint, vec2 place, float re
     float lit = dot(light_way, end.inward);
     float tip = plain ? abs(lean) * reach : (end.priority == BURIN_PRIORITY_NONE ? 0.0f : reach);
     float back = max(max(seen, lit), 0.0f) + abs(seen) + (plain ? tip : 0.0f) + 1.0e-3f * reach;
-    // The end of a ridge throws a shadow of its own.
-    float ahead = abs(seen) + tip + (plain ? 0.0f : max(-lit, 0.0f)) + 1.0e-3f * reach;
-    vec2 side = end.normal * (reach + abs(dot(way, end.normal)) + (plain ? 0.0f : abs(dot(light_way, end.normal))));
+    // Where nothing goes on beyond, the end of what stands out throws a shadow of its own.
+    bool last = !plain || (end.priority == BURIN_PRIORITY_BOTH && end.shape == BURIN_END_TEE);
+    float ahead = abs(seen) + tip + (last ? max(-lit, 0.0f) : 0.0f) + 1.0e-3f * reach;
+    vec2 side = end.normal * (reach + abs(dot(way, end.normal)) + (last ? abs(dot(light_way, end.normal)) : 0.0f));
     vec2 a = end.vertex - place + end.inward * back;
     vec2 b = end.vertex - place - end.inward * ahead;
     vec2 p = burin_to_pixel(footprint, a - side);
@@ -106,7 +107,8 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     float high = max(style.level - cell.highest, cell.lowest - style.level);
     BurinReachOf reach;
     reach.spread = length(ray.slope) * high;
-    float shadow = shadows ? max(style.level - cell.highest, 0.0f) * length(light_slope) : 0.0f;
+    bool stands_out = style.level - cell.highest > BURIN_FILM * burin_map.depth;
+    float shadow = shadows && stands_out ? (burin_map.drop_range.y - cell.highest) * length(light_slope) : 0.0f;
     vec2 place = ray.slope * style.level;
     reach.along = footprint.radius + reach.spread + shadow;
     reach.across = wide + footprint.radius + reach.spread + shadow;
@@ -116,16 +118,18 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     vec2 tips = abs(lean) * wide;
     if (!burin_end_is_plain(start)) tips.x = wide;
     if (!burin_end_is_plain(end)) tips.y = wide;
-    BurinStretch stretch = burin_stretch_of(e, place, reach, tips);
-    vec2 limits = stretch.limits;
-    if (limits.y < limits.x) return;
-    stretch.room = footprint.radius;
+    // What light and ray reach past an end may lie lower than the element itself, and so farther away.
     float relief = burin_map.drop_range.y - burin_map.drop_range.x;
     vec2 way = ray.slope * relief;
     vec2 light_way = light_slope * (shadows ? relief : 0.0f);
     region.special = region.special | burin_end_mask(start, footprint, place, wide, lean.x, way, light_way) |
                      burin_end_mask(end, footprint, place, wide, lean.y, way, light_way);
+    BurinStretch stretch = burin_stretch_of(e, place, reach, tips);
+    vec2 limits = stretch.limits;
+    if (limits.y < limits.x) return;
+    stretch.room = footprint.radius;
     uint mask = 0u;
+    region.deep_shadow = 0u;
     int pieces = burin_piece_count(e, limits, footprint.radius);
     float centre = stretch.middle;
     for (int i = 0; i < 8; ++i) {
@@ -153,7 +157,9 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     float area = region.strip_area;
     region.strip_area = 0.0f;
     if (area * region.covered_area > BURIN_LEAST_AREA) region.special = region.special | (region.covered & mask);
+    region.special = region.special | (region.covered & region.deep_shadow) | (region.deep_shadows & mask);
     region.covered = region.covered | mask;
+    region.deep_shadows = region.deep_shadows | region.deep_shadow;
     region.covered_area = region.covered_area + area;
     if (area > 0.0f) ++region.elements;
 }
@@ -178,14 +184,17 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
     region.ground = ground;
     region.covered = 0u;
     region.special = 0u;
+    region.deep_shadows = 0u;
+    region.deep_shadow = 0u;
     region.covered_area = 0.0f;
     region.strip_area = 0.0f;
     region.elements = 0;
     vec4 box = burin_region_box(ray, footprint, burin_map.drop_range);
     region.fullness = (box.z - box.x + 1.0f) * (box.w - box.y + 1.0f) / float(BURIN_MAX_REGION_CELLS);
     if (region.fullness > 1.0f) return region;
-    // What rises above the ground throws shadows as far as this.
-    vec2 thrown = light_slope * (shadows ? max(ground_drop - burin_map.drop_range.x, 0.0f) : 0.0f);
+    // What rises above the ground throws shadows as far as this, where they fall on the lowest surface.
+    bool stands_out = ground_drop - burin_map.drop_range.x > BURIN_FILM * burin_map.depth;
+    vec2 thrown = light_slope * (shadows && stands_out ? burin_map.drop_range.y - burin_map.drop_range.x : 0.0f);
     thrown = thrown * vec2(burin_map.cells) / burin_map.size;
     vec4 wide = vec4(floor(box.x - max(thrown.x, 0.0f)), floor(box.y - max(thrown.y, 0.0f)),
                      floor(box.z - min(thrown.x, 0.0f)), floor(box.w - min(thrown.y, 0.0f)));

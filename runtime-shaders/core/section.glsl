@@ -5,6 +5,9 @@
 // A facet's outer side lies to the left of its direction (profiles run left to right). To cross it inwards enters what
 // the element adds and leaves what it cuts. A cut is closed by a vertical ray upwards from each end of its run of facets.
 
+// Height above every point of a profile.
+#define BURIN_FAR_UP 1.0e4f
+
 // What the passes over a cell's elements have found so far.
 struct BurinPass {
     float from;      // drop at which the ray is known to be in air
@@ -131,6 +134,86 @@ float burin_facet_height(vec2 a, vec2 b, float x) {
     return a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
 }
 
+// Where a stretch crosses the line of a border, parted so that each part crosses it once at most.
+struct BurinCrossings {
+    vec2 across;  // normal of the line
+    float middle;  // drop where the parts meet; the end of the stretch where there is one part
+    vec3 values;   // along the normal, where the stretch begins, at the middle and where it ends
+    bool first;    // whether the crossing of the first part lies on the border
+    bool second;
+};
+
+// Where in [0, 1] the parabola through fa at 0, f at s and fb at 1 turns; -1 where it clearly does so on fa's side of 0.
+float burin_turn(float fa, float s, float f, float fb) {
+    float rate = (f - fa) / s;
+    float bend = (fb - fa - rate) / (1.0f - s);
+    float start = rate - bend * s;
+    float turn = -0.5f * start / bend;
+    if (!(turn > 0.0f && turn < 1.0f)) return -1.0f;
+    float left = (fa - bend * turn * turn) * (fa > 0.0f ? 1.0f : -1.0f);
+    return left < 0.1f * abs(bend) ? turn : -1.0f;
+}
+
+// Of the border from `last` to `point`, which the ray passes on their left or not; `sense`: +1, or -1 where it is crossed
+// inwards from its right. Ends of the stretch on different sides of the line are joined by one crossing, which lies on the
+// border where `odd` says so. A bent stretch whose ends lie on the same side may come through and go back: a parabola through
+// its middle `qm`, asked for where `known` is false, tells where it turns.
+BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
+                               bool straight, vec2 last, vec2 point, float sense, bool last_left, bool left, bool odd,
+                               BURIN_INOUT(bool) known, BURIN_INOUT(vec2) qm) {
+    vec2 way = point - last;
+    BurinCrossings found;
+    found.across = vec2(-way.y, way.x) * sense;
+    float fa = dot(qa - last, found.across);
+    float fb = dot(qb - last, found.across);
+    found.middle = range.y;
+    found.values = vec3(fa, fb, fb);
+    found.first = odd;
+    found.second = false;
+    bool apart = min(abs(fa), abs(fb)) > 0.1f * length(way);
+    if (straight || apart || (fa > 0.0f) != (fb > 0.0f)) return found;
+    float turn = 0.5f;
+    vec2 q = qm;
+    float value = fa;
+    for (int n = 0; n < 3; ++n) {
+        if (n > 0) turn = burin_turn(fa, turn, value, fb);
+        if (turn < 0.0f) break;
+        if (n > 0 || !known) q = burin_section(e, style, piece, ray, mix(range.x, range.y, turn)).q;
+        if (n == 0) qm = q;
+        known = true;
+        value = dot(q - last, found.across);
+        if ((value > 0.0f) != (fa > 0.0f)) break;
+    }
+    if ((value > 0.0f) == (fa > 0.0f)) return found;
+    found.middle = mix(range.x, range.y, turn);
+    found.values.y = value;
+    // A point of the line between the two crossings has the ray on its other side, and lies at a height that the stretch has.
+    vec2 d = qb - qa;
+    bool behind = (d.x * found.across.y - d.y * found.across.x > 0.0f) == (fa > 0.0f);
+    bool last_between = last_left == behind && last.y < qa.y && last.y > qb.y;
+    bool between = left == behind && point.y < qa.y && point.y > qb.y;
+    float along = dot(q - last, way);
+    if (between != last_between) found.first = between == (dot(d, way) > 0.0f);
+    else found.first = !between && along > 0.0f && along < dot(way, way);
+    found.second = between != last_between ? !found.first : found.first;
+    return found;
+}
+
+// Notes the crossings of one border, which bounds the add between the drops add_range, and the cut after cut_from.
+void burin_note_crossings(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, BurinCrossings on,
+                          vec2 anchor, bool straight, vec2 add_range, float cut_from, int facet, BURIN_INOUT(BurinEvents) found) {
+    for (int k = 0; k < 2; ++k) {
+        if (!(k == 0 ? on.first : on.second)) continue;
+        vec2 part = k == 0 ? vec2(range.x, on.middle) : vec2(on.middle, range.y);
+        vec2 values = k == 0 ? vec2(on.values.x, on.values.y) : vec2(on.values.y, on.values.z);
+        if ((values.x > 0.0f) == (values.y > 0.0f)) continue;
+        float t = burin_crossing(e, style, piece, ray, part, values, anchor, on.across, straight);
+        bool inwards = values.x > 0.0f;
+        if (t > add_range.x && t < add_range.y) burin_note_add(t, facet, inwards, found);
+        if (t > cut_from) burin_note_cut(t, facet, inwards, found);
+    }
+}
+
 // The next crossings of a profile's borders: of its add between the drops add_range, of its cut after cut_from.
 BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
                          bool straight, vec2 add_range, float cut_from) {
@@ -147,6 +230,8 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
     bool last_known = false;
     bool last_internal = false;
     bool run_odd = false;
+    bool known = false;
+    vec2 qm = vec2(0.0f, 0.0f);
     for (int i = 0; i <= BURIN_MAX_PROFILE_POINTS; ++i) {
         if (i > style.count) break;
         bool facet = i > 0 && i < style.count;
@@ -162,24 +247,26 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
         bool beside = facet && (max(point.x, last.x) < b_low || min(point.x, last.x) > b_high);
         bool left = last_left;
         if (!beside) {
-            if (!last_known && i > 0) last_left = burin_passes_left(e, style, piece, ray, range, qa, d, last, straight);
-            left = last_left;
-            if (i < style.count) left = burin_passes_left(e, style, piece, ray, range, qa, d, point, straight);
+            for (int k = last_known || i == 0 ? 1 : 0; k < 2; ++k) {
+                left = burin_passes_left(e, style, piece, ray, range, qa, d, k == 0 ? last : point, straight);
+                if (k == 0 || i == style.count) last_left = left;
+            }
             if (facet && burin_spans(last, point, qe.x) && burin_facet_height(last, point, qe.x) > qe.y + BURIN_FILM)
                 found.add_at_end = !found.add_at_end;
         }
         // The facet itself, and the vertical ray over the point where a run of cutting facets begins or ends.
         bool above = (d.x > 0.0f) != last_left;
-        int edges = beside ? 0 : (internal != last_internal ? 2 : 1);
-        for (int k = facet ? 0 : 1; k < edges; ++k) {
-            vec2 across = k == 0 ? vec2(last.y - point.y, point.x - last.x) : vec2(internal ? 1.0f : -1.0f, 0.0f);
-            float fa = dot(qa - last, across);
-            float fb = dot(qb - last, across);
-            if (!(k == 0 ? left != last_left : above) || (fa > 0.0f) == (fb > 0.0f)) continue;
-            float t = burin_crossing(e, style, piece, ray, range, vec2(fa, fb), last, across, straight);
-            if (k == 0 && t > add_range.x && t < add_range.y) burin_note_add(t, i - 1, fa > 0.0f, found);
-            if ((k == 1 || internal) && t > cut_from)
-                burin_note_cut(t, k == 0 ? i - 1 : BURIN_FACET_WALL, fa > 0.0f, found);
+        int borders = beside ? 0 : (internal != last_internal ? 2 : 1);
+        for (int k = facet ? 0 : 1; k < borders; ++k) {
+            bool own = k == 0;
+            vec2 next = own ? point : last + vec2(0.0f, BURIN_FAR_UP);
+            float sense = own || !internal ? 1.0f : -1.0f;
+            BurinCrossings on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, next, sense, last_left,
+                                                own && left, own ? last_left != left : above, known, qm);
+            vec2 add_part = own ? add_range : vec2(1.0f, 0.0f);
+            float cuts_after = own && !internal ? 1.0e30f : cut_from;
+            burin_note_crossings(e, style, piece, ray, range, on, last, straight, add_part, cuts_after,
+                                 own ? i - 1 : BURIN_FACET_WALL, found);
         }
         last = point;
         last_left = left;

@@ -10,6 +10,8 @@ struct BurinRegion {
     vec3 ground;   // colour of lit ground
     uint covered;  // places (burin_quad_mask) that a feature or its shadow covers
     uint special;  // places that stripes do not describe: two features over each other, ends
+    uint deep_shadows;   // places where shadows of the elements so far fall on whatever is lower than their ground
+    uint deep_shadow;     // the same of the element at hand
     float covered_area;  // sum of what the elements so far cover
     float strip_area;    // the same of the element at hand
     int elements;        // that show in the pixel
@@ -328,16 +330,22 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
     region.strip_area = region.strip_area + burin_strip_area(first, far, whole * 0.0f, whole);
     if (shade.folded) region.special = 0xffffu;
     if (shade.folded || shade.beyond <= 0.0f) return mask;
-    // Shadow on the ground behind the profile, as far as the profile does not hide it.
-    float behind = same ? max(run.x - last.way.x * order, 0.0f) : 0.0f;
-    if (behind >= shade.beyond) return mask;
-    BurinThrown thrown;
-    thrown.point = shade.caster;
-    thrown.below = (shade.caster.y - shade.last.y) * stretch.scales.y * burin_map.depth;
-    thrown.shift = light_slope * thrown.below;
-    BurinRail rim = burin_thrown_rail(e, style, stretch, footprint, slope, thrown);
     BurinRail near = first;
     if (same) near = far;
+    BurinRail rim = near;
+    // First the shadow on whatever is lower than the ground, then that on the ground, as far as the profile does not hide it.
+    float behind = same ? max(run.x - last.way.x * order, 0.0f) : 0.0f;
+    bool deep = burin_map.drop_range.y - style.level > 2.0f * BURIN_FILM * burin_map.depth;
+    for (int k = deep ? 0 : 1; k < (behind < shade.beyond ? 2 : 1); ++k) {
+        BurinThrown thrown;
+        thrown.point = shade.caster;
+        thrown.below = (shade.caster.y - shade.last.y) * stretch.scales.y * burin_map.depth;
+        if (k == 0) thrown.below = burin_map.drop_range.y - style.level + shade.caster.y * stretch.scales.y * burin_map.depth;
+        thrown.shift = light_slope * thrown.below;
+        rim = burin_thrown_rail(e, style, stretch, footprint, slope, thrown);
+        if (k == 0) region.deep_shadow = region.deep_shadow | burin_strip_mask(near, rim);
+    }
+    if (behind >= shade.beyond) return mask;
     float area = burin_strip_area(near, rim, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
     vec3 color = burin_facet_color(vec3(0.0f, 0.0f, 1.0f), 0u, 0.0f);
     region.color = region.color + (color - region.ground) * area;

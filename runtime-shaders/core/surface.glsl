@@ -38,7 +38,6 @@ BurinSurface burin_surface(BurinHit hit) {
     }
     BurinElement e = burin_element(hit.mark.element, hit.ray.origin, hit.centre);
     BurinStyle style = burin_style(e.style);
-    e.slack = burin_clip_slack(e, style);
     s.material = style.material;
     if (s.facet == BURIN_FACET_STEP) s.facet = burin_step_facet(e, style, hit.t);
     if (hit.mark.facet < 0) {

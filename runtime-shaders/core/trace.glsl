@@ -80,13 +80,16 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
     vec2 range = vec2(piece.lo, piece.lo);
     vec2 qa = vec2(0.0f, 0.0f);
     vec2 qb = vec2(0.0f, 0.0f);
+    vec2 heights = vec2(1.0f, 1.0f);  // scales at both ends
     for (int i = 0; i <= BURIN_MAX_WAVE_SEGMENTS + 1; ++i) {
         if (i > count) break;
         float to = i == count ? piece.hi : (i == above ? part : mix(part, piece.hi, float(i - above) / float(count - above)));
         if (i < above) to = mix(piece.lo, part, float(i) / float(above));
         range = vec2(range.y, to);
         qa = qb;
-        qb = burin_section(e, style, piece, ray, range.y).q;
+        BurinSection section = burin_section(e, style, piece, ray, range.y);
+        qb = section.q;
+        heights = vec2(heights.y, section.height);
         if (i == 0) continue;
         vec2 half_range = range;
         vec2 ha = qa;
@@ -101,7 +104,9 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
             if (from_inside != to_inside) {
                 float t = burin_crossing(e, style, piece, ray, range, inside, vec2(middle, 0.0f),
                                          vec2(piece.side, 0.0f), false);
-                vec2 q = vec2(middle, mix(qa.y, qb.y, (t - range.x) / (range.y - range.x)));
+                // Where the height scale changes, it runs nearly straight, the height that it divides does not.
+                float height = mix(heights.x, heights.y, (t - range.x) / (range.y - range.x));
+                vec2 q = vec2(middle, (style.level - t) / (height * burin_map.depth));
                 if (from_inside) {
                     half_range.y = t;
                     hb = q;
@@ -116,14 +121,15 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
 }
 
 // Every part of one element over the stretch t0-t1 of equal ground.
-void burin_visit(uint reference, BurinRay ray, vec2 centre, vec2 stretch, float ground, BURIN_INOUT(BurinPass) pass) {
+void burin_visit(uint reference, BurinRay ray, vec2 centre, bool stepped, vec2 stretch, float ground,
+                 BURIN_INOUT(BurinPass) pass) {
     BurinElement e = burin_element(reference, ray.origin, centre);
     BurinStyle style = burin_style(e.style);
     float same = BURIN_SAME_LEVEL * burin_map.depth;
     bool left = abs(style.level - ground) < same;
     bool right = abs(style.right_level - ground) < same;
     if (!left && !right) return;
-    e.slack = burin_clip_slack(e, style);
+    if (stepped) e.slack = burin_clip_slack(e, style);
     float pad = BURIN_SAME_DROP * burin_map.depth + 1.0e-5f * (stretch.y - stretch.x);
     BurinPiece whole = burin_whole(e, stretch.x - pad, stretch.y + pad);
     BurinEnd start = burin_end(e, true);
@@ -166,9 +172,10 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
         pass.add_mark = hit.mark;
         pass.air_mark = hit.mark;
         uvec4 texel = uvec4(0u, 0u, 0u, 0u);
+        bool stepped = (cell.flags & BURIN_CELL_FLAG_STEP) != 0u;
         for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
             if (i >= cell.count) break;
-            burin_visit(burin_listed(cell, i, texel), hit.ray, hit.centre, stretch, ground, pass);
+            burin_visit(burin_listed(cell, i, texel), hit.ray, hit.centre, stepped, stretch, ground, pass);
         }
         if (pass.add < pass.ground) {
             at_add = true;

@@ -150,7 +150,8 @@ struct BurinHit {
 #define BURIN_SAME_LEVEL 7.0e-6f
 // Part of the depth that a profile may stand above the ground by rounding where it means to lie on it.
 #define BURIN_FILM 2.0e-5f
-// Part of the tile by which neighbouring domains overlap, half a coordinate step, so that no ray falls between.
+// Part of the distances that their border is calculated from by which neighbouring domains overlap: some steps of a float,
+// so that no ray falls between.
 #define BURIN_OVERLAP 1.0e-6f
 // Half a step of a clip angle, radians.
 #define BURIN_CLIP_ROUNDING 4.0e-4f

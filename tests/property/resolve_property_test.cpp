@@ -34,7 +34,7 @@ Vec2 arc_point(const Element& e, double s) {
 
 void check_end(const ElementEnd& end) {
     EXPECT_TRUE(end.clip_angle >= 0.0 && end.clip_angle < std::numbers::pi);
-    EXPECT_LE(end.shape, 2);
+    EXPECT_LE(end.shape, end.priority == Priority::both ? 3 : 2);
     EXPECT_TRUE(end.priority != Priority::none || end.shape == 0);
 }
 

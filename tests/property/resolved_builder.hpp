@@ -24,6 +24,9 @@ inline ElementEnd round_end() { return {Priority::both, static_cast<std::uint8_t
 inline ElementEnd clip_end(double angle) {
     return {Priority::both, static_cast<std::uint8_t>(EndShape::clip), undirected(angle)};
 }
+inline ElementEnd tee_end(double angle) {
+    return {Priority::both, static_cast<std::uint8_t>(EndShape::tee), undirected(angle)};
+}
 inline ElementEnd corner_end(Priority outer, CornerShape shape, double angle) {
     return {outer, static_cast<std::uint8_t>(shape), undirected(angle)};
 }
@@ -158,7 +161,7 @@ inline ResolvedPattern random_resolved(std::uint64_t seed, bool overhangs, Wrap 
             case 2:
                 return round_end();
             case 3:
-                return clip_end(normal + random.between(-1.0, 1.0));
+                return (random.chance(0.5) ? clip_end : tee_end)(normal + random.between(-1.0, 1.0));
             default:
                 return corner_end(random.chance(0.5) ? Priority::left : Priority::right,
                                   static_cast<CornerShape>(random.below(3)),

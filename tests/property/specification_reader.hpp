@@ -251,7 +251,7 @@ class SpecificationReader {
         const double side = dot(from, inward);
         clearance = std::fmin(clearance, std::fabs(a));
         if (end.priority == 0) return a <= 0;
-        if (end.priority == 3 && end.shape == 0) {
+        if (end.priority == 3 && (end.shape == 0 || end.shape == 3)) {
             clearance = std::fmin(clearance, std::fabs(side));
             return side >= 0;
         }

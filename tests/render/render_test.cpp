@@ -179,6 +179,37 @@ TEST(RenderAsset, RegionsAreTheMeanOfRays) {
         }
 }
 
+// A groove with lips runs squarely into another one: light and sight pass through where it opens, and its lips throw shadows
+// down into what it opens to.
+TEST(RenderAsset, RegionsEndAtATee) {
+    Pattern pattern = base(kRise);
+    pattern.profiles = {groove(0.05, 0.012), lipped(0.04, 0.010, 0.006)};
+    pattern.paths = {polyline({{0.1, 0.5}, {0.9, 0.5}}, 0), polyline({{0.5, 0.9}, {0.5, 0.5}}, 1)};
+    const Asset plane = plane_with(prepare(pattern));
+    for (const double azimuth : {20.0, 110.0, 200.0, 290.0}) {
+        RenderOptions options;
+        options.width = options.height = 48;
+        options.camera.azimuth = azimuth;
+        options.camera.elevation = 60.0;
+        options.camera.zoom = 5.0;
+        options.light.elevation = 35.0;
+        options.light.azimuth = azimuth + 60.0;
+        options.backend = backend();
+        options.samples = 1;
+        options.rays = 16;
+        const auto regions = render_asset(plane, options);
+        SKIP_WITHOUT_CONTEXT(regions);
+        options.antialiasing = Antialiasing::points;
+        options.samples = 36;
+        const auto rays = render_asset(plane, options);
+        ASSERT_TRUE(regions.ok() && rays.ok());
+        int off = 0;
+        for (std::size_t i = 0; i < rays->texels.size(); ++i) off += std::abs(int(regions->texels[i]) - int(rays->texels[i])) > 24;
+        EXPECT_EQ(off, 0) << "azimuth " << azimuth;
+        EXPECT_LT(difference(*regions, *rays), 0.8) << "azimuth " << azimuth;
+    }
+}
+
 // What an engine does in one run of the shader, and what suits a CPU.
 TEST(RenderAsset, OneRunDrawsTheSame) {
     const Asset plane = plane_with(prepare(crossing_pattern()));

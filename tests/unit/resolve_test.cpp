@@ -67,12 +67,12 @@ int count(const ResolvedPattern& pattern, JunctionKind kind) {
     return n;
 }
 
-bool is_clip(const ElementEnd& end) {
-    return end.priority == Priority::both && end.shape == static_cast<int>(EndShape::clip);
+bool is(const ElementEnd& end, EndShape shape) {
+    return end.priority == Priority::both && end.shape == static_cast<int>(shape);
 }
-bool is_hip(const ElementEnd& end) {
-    return end.priority == Priority::both && end.shape == static_cast<int>(EndShape::hip);
-}
+bool is_clip(const ElementEnd& end) { return is(end, EndShape::clip); }
+bool is_tee(const ElementEnd& end) { return is(end, EndShape::tee); }
+bool is_hip(const ElementEnd& end) { return is(end, EndShape::hip); }
 
 // ---- profiles
 
@@ -266,7 +266,7 @@ TEST(ResolveEnds, TeeSnapsAndClipsAlongTheOtherPath) {
     pattern.paths = {chain({{0.2, 0.2}, {0.8, 0.2}}), chain({{0.5, 0.5}, {0.45, 0.20005}})};
     const ResolvedPattern resolved = resolve(pattern);
     EXPECT_EQ(resolved.elements[1].element.p2.y, 0.2);
-    EXPECT_TRUE(is_clip(resolved.elements[1].end));
+    EXPECT_TRUE(is_tee(resolved.elements[1].end));
     EXPECT_EQ(resolved.elements[1].end.clip_angle, 0.0);
     EXPECT_EQ(count(resolved, JunctionKind::tee), 1);
     EXPECT_EQ(count(resolved, JunctionKind::crossing), 0);
@@ -292,7 +292,7 @@ TEST(ResolveEnds, EndOnItsOwnPathIsATee) {
     pattern.paths = {chain({{0.2, 0.2}, {0.2, 0.6}, {0.5, 0.6}, {0.5, 0.4}, {0.2, 0.4}})};
     const ResolvedPattern resolved = resolve(pattern);
     EXPECT_EQ(count(resolved, JunctionKind::tee), 1);
-    EXPECT_TRUE(is_clip(resolved.elements[3].end));
+    EXPECT_TRUE(is_tee(resolved.elements[3].end));
     EXPECT_NEAR(resolved.elements[3].end.clip_angle, kPi / 2, 1e-12);
 }
 
@@ -319,7 +319,7 @@ TEST(ResolveEnds, EndOnTheBorderOfAClampedMapRunsToIt) {
     pattern.paths = {chain({{0.5, 0.5}, {0.99996, 0.4}})};
     const ResolvedPattern resolved = resolve(pattern);
     EXPECT_EQ(resolved.elements[0].element.p2.x, 1.0);
-    EXPECT_TRUE(is_clip(resolved.elements[0].end));
+    EXPECT_TRUE(is_tee(resolved.elements[0].end));
     EXPECT_NEAR(resolved.elements[0].end.clip_angle, kPi / 2, 1e-12);
 }
 
@@ -340,7 +340,7 @@ TEST(ResolveSteps, GrooveIsSplitAtAStepAndContinuesOnTheOtherLevel) {
     const double levels[] = {0.0, -0.002, 0.0};
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(resolved.styles[resolved.elements[4 + i].style].level, levels[i], 1e-15);
-    EXPECT_TRUE(is_clip(resolved.elements[4].end) && is_clip(resolved.elements[5].start));
+    EXPECT_TRUE(is_tee(resolved.elements[4].end) && is_tee(resolved.elements[5].start));
     EXPECT_NEAR(resolved.elements[4].end.clip_angle, kPi / 2, 1e-12);
     EXPECT_EQ(resolved.stats.step_crossings, 2);
     // 0.003 below its own ground on both levels.
@@ -389,7 +389,7 @@ TEST(ResolveSteps, UnevenLevelsAreBroughtTogether) {
 TEST(ResolveSteps, StepMayEndOnAStepOrOnTheMapBorder) {
     Pattern pattern = empty_pattern(Wrap::clamp);
     pattern.paths = {chain({{0.0, 0.5}, {1.0, 0.5}}, 1)};
-    EXPECT_TRUE(is_clip(resolve(pattern).elements[0].end));
+    EXPECT_TRUE(is_tee(resolve(pattern).elements[0].end));
     // Inside the plate a wall from side to side; its left, towards +x here, is the lower part's own level.
     Pattern plates = empty_pattern();
     Path wall = chain({{0.5, 0.6}, {0.5, 0.4}}, 2);
@@ -397,7 +397,7 @@ TEST(ResolveSteps, StepMayEndOnAStepOrOnTheMapBorder) {
     plates.paths = {plate(0.4, 0.6), wall};
     const ResolvedPattern resolved = resolve(plates);
     EXPECT_EQ(count(resolved, JunctionKind::tee), 2);
-    EXPECT_TRUE(is_clip(resolved.elements.back().start) && is_clip(resolved.elements.back().end));
+    EXPECT_TRUE(is_tee(resolved.elements.back().start) && is_tee(resolved.elements.back().end));
 }
 
 TEST(ResolveSteps, GrooveMayEndOnAStep) {
@@ -577,7 +577,7 @@ TEST(ResolveCleaning, DotsStayWhereTheyAre) {
         EXPECT_EQ(resolved.stats.dropped_elements, 0);
         EXPECT_EQ(resolved.stats.snapped_ends, 0);
         EXPECT_EQ(resolved.elements[1].element.p2.x, 0.4 + distance);
-        EXPECT_FALSE(is_clip(resolved.elements[1].start) || is_clip(resolved.elements[2].end));
+        EXPECT_FALSE(is_tee(resolved.elements[1].start) || is_tee(resolved.elements[2].end));
     }
 }
 

@@ -247,7 +247,7 @@ void add_element_cases(std::map<int, Bytes>& cases) {
     cases[4002] = broken_element(kLastLine, [](ElementCode& e) { e.unused = 1; });
     cases[4003] = broken_textures([](PackedTextures& t) { t.data[4 * kLastLine + 2] |= 1u << 28; });
     cases[4004] = broken_element(kScaledLine, [](ElementCode& e) { e.p1.u = 5; });
-    cases[4005] = broken_element(kLastLine, [](ElementCode& e) { e.start.shape = 3; });
+    cases[4005] = broken_element(kLastLine, [](ElementCode& e) { e.start = {BURIN_PRIORITY_LEFT, BURIN_END_TEE, 0}; });
     cases[4006] = broken_element(kLastLine, [](ElementCode& e) { e.end.clip_angle = 7; });
     cases[4007] = broken_element(kLastLine, [](ElementCode& e) { e.style = 3; });
     cases[4008] = broken_element(kLastLine, [](ElementCode& e) { e.p2 = e.p0; });

@@ -51,12 +51,18 @@ namespace burin {
 
 enum class Priority : std::uint8_t { none, left, right, both };  // values equal BURIN_PRIORITY_*
 enum class CornerShape : std::uint8_t { mitre, bevel, round };   // with left or right; values equal BURIN_CORNER_*
-enum class EndShape : std::uint8_t { clip, hip, round };         // with both; values equal BURIN_END_*
+enum class EndShape : std::uint8_t { clip, hip, round, tee };    // with both; values equal BURIN_END_*
 
 struct ElementEnd {
     Priority priority = Priority::none;
     std::uint8_t shape = 0;   // CornerShape or EndShape, by priority; 0 with none
     double clip_angle = 0.0;  // radians in [0, pi); 0 where unused
+
+    // Whether both sides of the profile run to the clip line: a smooth joint, or an end on another path's line.
+    bool clips_both() const {
+        return priority == Priority::both &&
+               (EndShape(shape) == EndShape::clip || EndShape(shape) == EndShape::tee);
+    }
 };
 
 // A perturbation as elements refer to it: the factors as functions of the argument a.
