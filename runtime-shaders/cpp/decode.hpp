@@ -61,8 +61,7 @@ struct SurfaceHit : DecodedHit {
 // Every member is const and safe to call from several threads.
 class Decoder {
   public:
-    Decoder(const PackedTextures& textures, const PathDetail& detail)
-        : textures_(textures), detail_(detail) {}
+    Decoder(const PackedTextures& textures, const PathDetail& detail);
 
     // The ray that passes the object surface at `origin` and goes `slope` metres over the plane per metre of
     // drop. Cost: cells passed times elements listed, some microseconds.
@@ -79,6 +78,7 @@ class Decoder {
   private:
     const PackedTextures& textures_;
     const PathDetail& detail_;
+    std::array<float, 2> drop_range_;  // drop_range.hpp: a question to every cell
 };
 
 // The whole tile from straight above in the map's scale (1 = object surface, 0 = depth below it), each texel
