@@ -62,6 +62,14 @@ Result<Sheet> make_sheet(int side, int tiles, const PlaneView& view) {
     return sheet;
 }
 
+double nanoseconds_of(const Asset& asset, RenderOptions options, const Settings& settings) {
+    options.backend = settings.backend;
+    options.antialiasing = Antialiasing::points;
+    PassTimer timer(asset, options);
+    for (int k = 0; k < (settings.quick ? 2 : 5); ++k) timer.try_once();
+    return timer.seconds() / (options.width * options.height) * 1e9;
+}
+
 }  // namespace
 
 void ask_features(const Settings& settings) {
@@ -86,9 +94,8 @@ void ask_features(const Settings& settings) {
             std::printf("| %d | %d | %s |\n", row.side * row.side * row.tiles * row.tiles, row.tiles * row.tiles, sheet.error().message.c_str());
             continue;
         }
-        RenderOptions options = options_of(view, sheet->subject.prepared.resolved.size);
-        options.backend = settings.backend;
-        const double time = seconds_per_pass(sheet->asset, options, settings.quick ? 2 : 5) / (view.width * view.height) * 1e9;
+        const RenderOptions options = options_of(view, sheet->subject.prepared.resolved.size);
+        const double time = nanoseconds_of(sheet->asset, options, settings);
         if (first == 0.0) first = time;
         const PixelWork work = work_of(sheet->subject, view);
         std::printf("| %d | %d | %.2f | %.2f | %.0f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", row.side * row.side * row.tiles * row.tiles,

@@ -55,52 +55,104 @@ PlaneView view_from(const Settings& settings, const Subject& subject, double ang
     return view;
 }
 
-void measure(const Settings& settings, const Subject& chosen) {
+struct Size {
+    double factor;
+    Subject subject;
+};
+
+std::vector<Size> sizes_of(const Subject& chosen) {
     const double own = chosen.prepared.resolved.size.x / chosen.prepared.textures.grid_width;
-    std::vector<Curve> curves(std::size(kAngles));
+    std::vector<Size> sizes;
     for (const double factor : kFactors) {
-        const auto subject = prepare_subject(chosen.name, chosen.scene, chosen.index, {.cell_size = factor == 1.0 ? 0.0 : own * factor});
-        if (!subject) continue;  // such cells would list too many elements
-        for (std::size_t k = 0; k < curves.size(); ++k) {
-            const PlaneView view = view_from(settings, chosen, kAngles[k]);
-            RenderOptions options = options_of(view, chosen.prepared.resolved.size);
-            options.backend = settings.backend;
-            const Asset asset = asset_of(*subject, extent_of(view, chosen.prepared.resolved));
-            curves[k].factors.push_back(factor);
-            curves[k].times.push_back(seconds_per_pass(asset, options, settings.quick ? 1 : 3) / (view.width * view.height) * 1e9);
-        }
+        auto subject = prepare_subject(chosen.name, chosen.scene, chosen.index, {.cell_size = factor == 1.0 ? 0.0 : own * factor});
+        if (subject) sizes.push_back({factor, std::move(*subject)});  // else such cells would list too many elements
     }
-    for (std::size_t k = 0; k < curves.size(); ++k) {
-        const Curve& curve = curves[k];
-        const double best = *std::min_element(curve.times.begin(), curve.times.end());
-        std::printf("| %s | %g ", chosen.name.c_str(), kAngles[k]);
-        double of_own = 0.0;
-        for (const double factor : kFactors) {
-            const auto found = std::find(curve.factors.begin(), curve.factors.end(), factor);
-            if (found == curve.factors.end()) {
-                std::printf("| ");
-                continue;
-            }
-            const double time = curve.times[std::size_t(found - curve.factors.begin())];
-            if (factor == 1.0) of_own = time;
-            std::printf("| %.0f ", time);
-        }
-        std::printf("| %.2f |\n", of_own / best);
+    return sizes;
+}
+
+// The sizes take turns, so that what else the machine does falls on all of them.
+Curve curve_of(const Settings& settings, const std::vector<Size>& sizes, const PlaneView& view, Antialiasing antialiasing) {
+    std::vector<Asset> assets;
+    for (const Size& size : sizes) assets.push_back(asset_of(size.subject, extent_of(view, size.subject.prepared.resolved)));
+    std::vector<PassTimer> timers;
+    for (const Asset& asset : assets) {
+        RenderOptions options = options_of(view, sizes[0].subject.prepared.resolved.size);
+        options.backend = settings.backend;
+        options.antialiasing = antialiasing;
+        timers.emplace_back(asset, options);
     }
+    for (int k = 0; k < (settings.quick ? 2 : 5); ++k)
+        for (PassTimer& timer : timers) timer.try_once();
+    Curve curve;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        curve.factors.push_back(sizes[i].factor);
+        curve.times.push_back(timers[i].seconds() / (view.width * view.height) * 1e9);
+    }
+    return curve;
+}
+
+void print(const std::string& scene, const char* filter, double angle, const Curve& curve) {
+    std::printf("| %s | %s | %g ", scene.c_str(), filter, angle);
+    const double best = *std::min_element(curve.times.begin(), curve.times.end());
+    double of_own = 0.0;
+    for (const double factor : kFactors) {
+        const auto found = std::find(curve.factors.begin(), curve.factors.end(), factor);
+        if (found == curve.factors.end()) {
+            std::printf("| ");
+            continue;
+        }
+        const double time = curve.times[std::size_t(found - curve.factors.begin())];
+        if (factor == 1.0) of_own = time;
+        std::printf("| %.0f ", time);
+    }
+    std::printf("| %.2f |\n", of_own / best);
     std::fflush(stdout);
+}
+
+void print_bytes(const std::string& scene, const std::vector<Size>& sizes) {
+    std::printf("| %s | kB | ", scene.c_str());
+    for (const double factor : kFactors) {
+        const auto found = std::find_if(sizes.begin(), sizes.end(), [&](const Size& size) { return size.factor == factor; });
+        std::printf("| ");
+        if (found == sizes.end()) continue;
+        const PackedTextures& textures = found->subject.prepared.textures;
+        std::printf("%.1f ", 4.0 * double(textures.grid.size() + textures.data.size()) / 1000.0);
+    }
+    std::printf("| |\n");
+}
+
+void draw(const Settings& settings, const std::string& scene, const std::vector<Curve>& curves) {
     if (settings.pictures.empty()) return;
     const std::string svg = svg_of(curves);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(svg.data());
-    if (Status written = write_file(settings.pictures + "/grid_" + chosen.name + ".svg", {bytes, svg.size()}); !written)
+    if (Status written = write_file(settings.pictures + "/grid_" + scene + ".svg", {bytes, svg.size()}); !written)
         std::fprintf(stderr, "%s\n", written.error().message.c_str());
+}
+
+void measure(const Settings& settings, const Subject& chosen) {
+    const std::vector<Size> sizes = sizes_of(chosen);
+    print_bytes(chosen.name, sizes);
+    constexpr struct {
+        const char* name;
+        Antialiasing antialiasing;
+    } kFilters[] = {{"rays", Antialiasing::points}, {"areas", Antialiasing::regions}};
+    for (const auto& filter : kFilters) {
+        std::vector<Curve> curves;
+        for (const double angle : kAngles) {
+            curves.push_back(curve_of(settings, sizes, view_from(settings, chosen, angle), filter.antialiasing));
+            print(chosen.name, filter.name, angle, curves.back());
+        }
+        draw(settings, chosen.name + "_" + filter.name, curves);
+    }
 }
 
 }  // namespace
 
 void ask_grid(const Settings& settings) {
-    std::printf("\n### Cell size\n\nProcessor time of a pixel, ns, at cell sizes over the chosen one (a gap: more elements in a cell than the format allows).\n\n| scene | degrees |");
+    std::printf("\n### Cell size\n\nProcessor time of a pixel and sample, ns, at cell sizes over the chosen one (a gap: more elements in a cell than the format allows),\n"
+                "and the bytes of both textures.\n\n| scene | filter | degrees |");
     for (const double factor : kFactors) std::printf(" %g |", factor);
-    std::printf(" chosen over best |\n|---|--:|");
+    std::printf(" chosen over best |\n|---|---|--:|");
     for (std::size_t i = 0; i <= std::size(kFactors); ++i) std::printf("--:|");
     std::printf("\n");
     for_each_subject(settings, [&](const Subject& subject) {

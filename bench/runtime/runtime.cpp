@@ -18,6 +18,7 @@ const std::vector<Configuration>& configurations() {
         {"points 4", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 4; }},
         {"points 16", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 16; }},
         {"regions, 4 rays", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 1, o.rays = 4; }},
+        {"default", [](RenderOptions&) {}},
         {"regions, 16 rays", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 1, o.rays = 16; }},
         {"regions 4", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 4, o.rays = 16; }},
     };

@@ -11,21 +11,16 @@ namespace {
 double seconds_of(const Asset& asset, const RenderOptions& options) {
     const std::clock_t before = std::clock();
     const auto picture = render_asset(asset, options);
-    return picture ? double(std::clock() - before) / CLOCKS_PER_SEC : -1e9;
+    return picture ? double(std::clock() - before) / CLOCKS_PER_SEC : 1e9;
 }
 
 }  // namespace
 
-double seconds_per_pass(const Asset& asset, RenderOptions options, int repeats) {
-    options.antialiasing = Antialiasing::points;
-    double least = 1e9;
-    for (int i = 0; i < repeats; ++i) {
-        options.samples = 1;
-        const double one = seconds_of(asset, options);
-        options.samples = 4;
-        least = std::min(least, (seconds_of(asset, options) - one) / 3.0);
-    }
-    return least;
+void PassTimer::try_once() {
+    options_.samples = 1;
+    one_ = std::min(one_, seconds_of(asset_, options_));
+    options_.samples = 4;
+    four_ = std::min(four_, seconds_of(asset_, options_));
 }
 
 PixelWork work_of(const Subject& subject, const PlaneView& view) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -39,30 +40,41 @@ double mean_width(const std::vector<Feature>& features) {
     return length > 0.0 ? area / length : 0.0;
 }
 
-// What a size costs: work of a ray and bytes.
+// What a size costs: work of a pixel, in elements of a list looked at, and bytes of the cells and of all.
 struct Cost {
-    double work = 0.0, bytes = 0.0;
-    // A fourth of the bytes weighs as much as about half more work; below 16 KiB bytes hardly count.
-    double total() const { return work * std::pow(bytes + 16384.0, 0.35); }
+    double work = 0.0, cell_bytes = 0.0, bytes = 0.0;
+    // A power of the bytes, so that a pattern with more of the same gets the same cells: half the bytes are worth an eighth more
+    // work. Below 12 KiB bytes hardly count.
+    double total() const { return work * std::pow(bytes + 12288.0, 0.2); }
 };
 
-// A strip of length l and width w at a random place meets (l w + (l + w) c 4 / pi + c^2) / c^2 squares of
-// side c.
+// Elements that a square of side c at a random place meets: a strip of length l and width w meets
+// (l w + (l + w) c 4 / pi + c^2) / c^2 squares of a lattice.
+double elements_in(const ResolvedPattern& pattern, const std::vector<Feature>& features, double side) {
+    double met = 0.0;
+    for (const Feature& f : features) met += f.length * f.width + (f.length + f.width) * side * 4.0 / std::numbers::pi + side * side;
+    return met / (pattern.size.x * pattern.size.y);
+}
+
+// Metres over the plane per metre of fall, along each axis, of a ray between 30 and 60 degrees off the normal.
+constexpr double kUsualSlope = 0.7;
+// Work, in elements looked at: of a cell, of an element beside which areas are looked for, and what no size of cells changes: what
+// lies under the ray is followed, and what shows in the pixel is drawn.
+constexpr double kCellWork = 1.7, kAreaWork = 3.0, kFixedWork = 40.0;
+
+// A ray sinks through what lies above the ground, by and large `base_offset`, and looks at every element of a cell's list; a
+// pixel that is drawn as areas looks at the lists of all cells over which its rays fall through the relief, and once at each
+// element of theirs.
 Cost foretell(const ResolvedPattern& pattern, const std::vector<Feature>& features, double cell,
               double margin) {
-    const double side = cell * (1.0 + 2.0 * margin), area = pattern.size.x * pattern.size.y;
-    double refs = 0.0, seen = 0.0;
-    for (const Feature& f : features) {
-        const double touched =
-            (f.length * f.width + (f.length + f.width) * side * 4.0 / 3.14159265358979 + side * side) /
-            (cell * cell);
-        refs += touched;
-        seen += touched;
-    }
-    const double cells = area / (cell * cell);
-    // A slanted ray sinks through the whole relief over about one depth to the side.
-    const double visited = 1.0 + pattern.depth / cell;
-    return {visited * (1.0 + seen / cells), 8.0 * cells + 2.0 * refs};
+    const double listed = elements_in(pattern, features, cell * (1.0 + 2.0 * margin));
+    const double way = kUsualSlope * pattern.depth;
+    const double passed = 1.0 + 2.0 * kUsualSlope * pattern.base_offset / cell, spanned = (1.0 + way / cell) * (1.0 + way / cell);
+    const double met = elements_in(pattern, features, cell + way);
+    const double cells = pattern.size.x * pattern.size.y / (cell * cell), cell_bytes = cells * (8.0 + 2.0 * listed);
+    // An element takes two to three texels.
+    const double element_bytes = 40.0 * static_cast<double>(features.size());
+    return {kFixedWork + (passed + spanned) * (kCellWork + listed) + kAreaWork * met, cell_bytes, cell_bytes + element_bytes};
 }
 
 struct Limits {
@@ -116,11 +128,11 @@ double cheapest_size(const ResolvedPattern& pattern, const GridOptions& options)
     if (features.empty() || width <= 0.0) return largest;
     const double smallest = largest / BURIN_MAX_TEXTURE_SIDE;
     double best = 0.0, best_cost = 1e300, fallback = largest;
-    for (int i = 0; i <= 24; ++i) {
-        const double cell = std::clamp(width * std::pow(2.0, 0.25 * i - 0.5), smallest, largest);
+    for (int i = 0; i <= 48; ++i) {
+        const double cell = std::clamp(width * std::pow(2.0, 0.125 * i - 0.5), smallest, largest);
         const Cost cost = foretell(pattern, features, cell, options.margin);
         fallback = cell;
-        if (options.max_bytes > 0 && cost.bytes > static_cast<double>(options.max_bytes)) continue;
+        if (options.max_bytes > 0 && cost.cell_bytes > static_cast<double>(options.max_bytes)) continue;
         if (cost.total() < best_cost) best_cost = cost.total(), best = cell;
     }
     return best > 0.0 ? best : fallback;

@@ -152,7 +152,9 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     // And light that runs along a taper passes a profile of another size.
     float taper = max(abs(e.scales.y - e.scales.x), abs(e.scales.w - e.scales.z)) / max(e.extent, 1.0e-20f);
     float grown = taper * (reach.spread + length(light_way)) / min(stretch.scales.x, stretch.scales.y);
-    if (max(max(curvature * reach.spread, waves), grown) > BURIN_MOST_BEND) region.special = 0xffffu;
+    // By how much it is off counts the less, the smaller the feature is in the pixel.
+    float coarse = max(footprint.radius / wide, 1.0f);
+    if (max(max(curvature * reach.spread, waves), grown) > BURIN_MOST_BEND * coarse * coarse) region.special = 0xffffu;
     // Features over each other; thin ones hardly are.
     float area = region.strip_area;
     region.strip_area = 0.0f;

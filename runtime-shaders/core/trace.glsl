@@ -120,6 +120,31 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
     }
 }
 
+// Metres around the vertex within which what an end does to the element lies: a hip's corner, or where the clip line leaves
+// the reach.
+float burin_end_reach(BurinEnd end, float reach) {
+    if (end.priority == BURIN_PRIORITY_NONE) return 0.0f;
+    float lean = dot(end.clip, end.inward) / max(abs(dot(end.clip, end.normal)), 1.0e-4f);
+    return reach * sqrt(1.0f + max(lean * lean, 1.0f));
+}
+
+// Whether the ray from a to b passes farther than `room` beside the element's path, or before or behind it. Most of a cell's
+// list does not lie in a ray's way, and this costs a fraction of what asking it would.
+bool burin_passes_beside(BurinElement e, vec2 a, vec2 b, float room) {
+    vec2 normal = burin_normal_of(burin_direction(e.p2 - e.p0, e.t0));
+    // Between path and chord lies at most half of what the control point is off.
+    float sag = e.curved ? 0.5f * dot(e.p1 - e.p0, normal) : 0.0f;
+    vec2 across = vec2(dot(a - e.p0, normal), dot(b - e.p0, normal));
+    return max(across.x, across.y) < min(sag, 0.0f) - room || min(across.x, across.y) > max(sag, 0.0f) + room;
+}
+
+bool burin_passes_beyond(BurinElement e, vec2 a, vec2 b, float room) {
+    vec2 tangent = burin_direction(e.p2 - e.p0, e.t0);
+    float middle = e.curved ? dot(e.p1 - e.p0, tangent) : 0.0f;
+    vec2 along = vec2(dot(a - e.p0, tangent), dot(b - e.p0, tangent));
+    return max(along.x, along.y) < min(middle, 0.0f) - room || min(along.x, along.y) > max(middle, e.extent) + room;
+}
+
 // Every part of one element over the stretch t0-t1 of equal ground.
 void burin_visit(uint reference, BurinRay ray, vec2 centre, bool stepped, vec2 stretch, float ground,
                  BURIN_INOUT(BurinPass) pass) {
@@ -131,9 +156,17 @@ void burin_visit(uint reference, BurinRay ray, vec2 centre, bool stepped, vec2 s
     if (!left && !right) return;
     if (stepped) e.slack = burin_clip_slack(e, style);
     float pad = BURIN_SAME_DROP * burin_map.depth + 1.0e-5f * (stretch.y - stretch.x);
-    BurinPiece whole = burin_whole(e, stretch.x - pad, stretch.y + pad);
+    vec2 from = ray.slope * (stretch.x - pad);
+    vec2 to = ray.slope * (stretch.y + pad);
+    float room = style.reach * burin_widest(e) * 1.001f + e.slack + BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y);
+    if (!e.curved && burin_passes_beside(e, from, to, room)) return;
     BurinEnd start = burin_end(e, true);
     BurinEnd end = burin_end(e, false);
+    float tip = max(burin_end_reach(start, room), burin_end_reach(end, room));
+    if (e.curved) tip = max(tip, room);
+    if (burin_passes_beyond(e, from, to, tip + room * 1.0e-3f)) return;
+    if (e.curved && burin_passes_beside(e, from, to, tip)) return;
+    BurinPiece whole = burin_whole(e, stretch.x - pad, stretch.y + pad);
     bool plain = left && right && burin_leaves_alone(whole, ray, start) && burin_leaves_alone(whole, ray, end);
     BurinMark mark;
     mark.element = reference;

@@ -75,13 +75,13 @@ class Core {
     static_assert(BURIN_MAX_CLASSES == Prefilter::kMostClasses);
 };
 
-Core make_core(const PackedTextures& textures, const PathDetail& detail, const std::vector<std::uint32_t>* charts = nullptr) {
+Core make_core(const PackedTextures& textures, const PathDetail& detail, const std::array<float, 2>& range,
+               const std::vector<std::uint32_t>* charts = nullptr) {
     Core core;
     core.textures = &textures;
     core.burin_map.size = vec2(float(detail.size_u), float(detail.size_v));
     core.burin_map.depth = float(detail.depth);
     core.burin_map.outer_level = float(detail.base_offset - detail.outer_level);
-    const std::array<float, 2> range = drop_range(textures, detail);
     core.burin_map.drop_range = vec2(range[0], range[1]);
     core.burin_map.repeats = detail.repeat ? 1 : 0;
     core.burin_map.cells = ivec2(textures.grid_width, textures.grid_height);
@@ -122,8 +122,11 @@ glm::vec3 to_vec3(const std::array<double, 3>& v) { return {float(v[0]), float(v
 
 }  // namespace
 
+Decoder::Decoder(const PackedTextures& textures, const PathDetail& detail, const std::vector<std::uint32_t>* charts)
+    : textures_(textures), detail_(detail), charts_(charts), drop_range_(drop_range(textures, detail)) {}
+
 DecodedHit Decoder::trace(Vec2 origin, Vec2 slope, DecodeCounts* counts) const {
-    glsl::Core core = glsl::make_core(textures_, detail_);
+    glsl::Core core = glsl::make_core(textures_, detail_, drop_range_);
     core.counts = counts;
     glsl::Core::BurinRay ray;
     ray.origin = glm::vec2(float(origin.x), float(origin.y));
@@ -132,7 +135,7 @@ DecodedHit Decoder::trace(Vec2 origin, Vec2 slope, DecodeCounts* counts) const {
 }
 
 SurfaceHit Decoder::trace_surface(const SurfacePlace& place, const std::array<double, 3>& direction) const {
-    glsl::Core core = glsl::make_core(textures_, detail_, charts_);
+    glsl::Core core = glsl::make_core(textures_, detail_, drop_range_, charts_);
     const glm::vec2 size = core.burin_map.size;
     const glm::mat3 frame(to_vec3(place.du) / size.x, to_vec3(place.dv) / size.y, to_vec3(place.normal));
     const glm::mat3 to_local = glm::inverse(frame);
@@ -153,7 +156,7 @@ SurfaceHit Decoder::trace_surface(const SurfacePlace& place, const std::array<do
 }
 
 double Decoder::height_at(Vec2 p) const {
-    glsl::Core core = glsl::make_core(textures_, detail_);
+    glsl::Core core = glsl::make_core(textures_, detail_, drop_range_);
     glsl::Core::BurinRay ray;
     ray.origin = glm::vec2(float(p.x), float(p.y));
     ray.slope = glm::vec2(0.0f, 0.0f);

@@ -65,8 +65,7 @@ struct SurfaceHit : DecodedHit {
 class Decoder {
   public:
     // `charts`: the table of detail.charts, over whose borders trace_surface goes on; null: there is none.
-    Decoder(const PackedTextures& textures, const PathDetail& detail, const std::vector<std::uint32_t>* charts = nullptr)
-        : textures_(textures), detail_(detail), charts_(charts) {}
+    Decoder(const PackedTextures& textures, const PathDetail& detail, const std::vector<std::uint32_t>* charts = nullptr);
 
     // The ray that passes the object surface at `origin` and goes `slope` metres over the plane per metre of
     // drop. Cost: cells passed times elements listed, some microseconds.
@@ -84,6 +83,7 @@ class Decoder {
     const PackedTextures& textures_;
     const PathDetail& detail_;
     const std::vector<std::uint32_t>* charts_;
+    std::array<float, 2> drop_range_;  // drop_range.hpp: a question to every cell
 };
 
 // The whole tile from straight above in the map's scale (1 = object surface, 0 = depth below it), each texel

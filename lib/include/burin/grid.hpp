@@ -65,9 +65,11 @@ inline std::size_t grid_bytes(const CellGrid& grid) {
     return 8 * grid.level.size() + 2 * grid.refs.size();
 }
 
-// Cost model: the expected work of a ray is cells visited + elements listed per cell visited, over sizes near 2 to 3
-// mean feature widths; the cheapest size is taken that keeps to the budget and to 63 references per cell. The cost is
-// foretold from lengths and widths; bytes and references are counted, and cells made larger or smaller as they ask.
+// Cost model: the expected work of a pixel, drawn by rays and as areas, is cells asked, elements listed in them, and
+// elements near what it spans; beyond 12 KiB, half the bytes of elements, cells and lists count as much as an eighth of
+// the work. Of sizes from 0.7 to 45 mean feature widths the cheapest is taken that keeps to the budget and to 63 references
+// per cell; beyond those KiB it does not depend on how large a part of a pattern is at hand. The cost is foretold from
+// lengths and widths; bytes and references are counted, and cells made larger or smaller as they ask.
 // Requires: the result of resolve_pattern (or of unpack_textures).
 // Ensures: as above; the same bytes for any thread count. Without cell_size, grid_bytes(result) <= max_bytes unless no
 // such size keeps to 63 references per cell: then cells are as large as these allow, and grid_bytes tells by how much
