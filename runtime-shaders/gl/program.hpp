@@ -20,13 +20,21 @@ enum class Stage { rays, top, surface, surface_with_depth };  // the last writes
 // Kinds of functions along paths that the textures hold, for BURIN_FUNCTION_KINDS of core/types.glsl.
 int function_kinds(const PackedTextures& textures);
 
+// What a program is made for.
+struct ProgramKind {
+    Stage stage = Stage::surface;
+    int function_kinds = 7;    // of the textures that it will draw
+    bool environment = false;  // surfaces only: lit by one, instead of a soft surround
+    int textures = 0;          // surfaces only: which ones materials have, for BURIN_TEXTURES of gl/material.glsl
+};
+
 // Text of a fragment shader as the driver gets it: version, kinds of functions, layout.h, core, bindings, main.
-std::string fragment_text(Stage stage, int function_kinds);
+std::string fragment_text(const ProgramKind& kind);
 
 class Program {
   public:
-    // For textures with no other kinds of functions. Fails with unavailable, carrying the driver's log.
-    static Result<Program> build(const Functions& gl, Stage stage, int function_kinds);
+    // Fails with unavailable, carrying the driver's log.
+    static Result<Program> build(const Functions& gl, const ProgramKind& kind);
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
     ~Program();

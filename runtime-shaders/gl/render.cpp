@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gl/look_textures.hpp"
 #include "gl/pixel_filter.h"
 #include "gl/program.hpp"
 
@@ -199,13 +200,14 @@ class Mesh {
         : gl_(gl), count_(GLsizei(primitive.indices.size())) {
         gl_.GenVertexArrays(1, &array_);
         gl_.BindVertexArray(array_);
-        gl_.GenBuffers(5, buffers_);
+        gl_.GenBuffers(6, buffers_);
         attribute(0, 3, primitive.positions);
         attribute(1, 3, primitive.normals);
         attribute(2, 2, primitive.uvs);
         // Without frames the second derivatives are those of OpenGL's disabled attributes: zero.
         const bool framed = !primitive.frames.empty();
         attributes(3, framed ? 5 : 2, framed ? frames_of(primitive) : directions_of(primitive));
+        if (!primitive.texture_uvs.empty()) attribute(8, 4, primitive.texture_uvs, 0, 5);
         gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[4]);
         gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(primitive.indices.size() * 4),
                        primitive.indices.data(), GL_STATIC_DRAW);
@@ -213,7 +215,7 @@ class Mesh {
     Mesh(const Mesh&) = delete;
     Mesh& operator=(const Mesh&) = delete;
     ~Mesh() {
-        gl_.DeleteBuffers(5, buffers_);
+        gl_.DeleteBuffers(6, buffers_);
         gl_.DeleteVertexArrays(1, &array_);
     }
     void draw() const {
@@ -234,7 +236,10 @@ class Mesh {
     }
     // `stride` floats from one vertex to the next; 0: packed.
     void attribute(GLuint place, GLint components, const std::vector<float>& values, int stride = 0) {
-        gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[place]);
+        attribute(place, components, values, stride, place);
+    }
+    void attribute(GLuint place, GLint components, const std::vector<float>& values, int stride, std::size_t buffer) {
+        gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[buffer]);
         gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * 4), values.data(), GL_STATIC_DRAW);
         gl_.VertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, GLsizei(stride * int(sizeof(float))),
                                 nullptr);
@@ -244,7 +249,7 @@ class Mesh {
     const gl::Functions& gl_;
     GLsizei count_;
     GLuint array_ = 0;
-    GLuint buffers_[5] = {0, 0, 0, 0, 0};
+    GLuint buffers_[6] = {0, 0, 0, 0, 0, 0};
 };
 
 // The asset in the context: meshes, textures and the program.
@@ -252,9 +257,11 @@ struct Scene {
     std::vector<std::unique_ptr<Mesh>> meshes;
     std::vector<std::unique_ptr<gl::DetailTextures>> details;  // one per material, null without detail
     std::unique_ptr<gl::DetailTextures> none;                  // stands in where a material has no detail
+    std::vector<std::unique_ptr<gl::MaterialTextures>> looks;  // one per material
+    std::unique_ptr<gl::EnvironmentTextures> environment;      // null without one
 };
 
-Scene load_scene(const gl::Functions& gl, const Asset& asset) {
+Scene load_scene(const gl::Functions& gl, const Asset& asset, const RenderOptions& options) {
     Scene scene;
     for (const Primitive& primitive : asset.primitives)
         scene.meshes.push_back(std::make_unique<Mesh>(gl, primitive));
@@ -262,6 +269,12 @@ Scene load_scene(const gl::Functions& gl, const Asset& asset) {
         scene.details.push_back(
             material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail, material.residual)
                                 : nullptr);
+    for (const MaterialInfo& material : asset.materials)
+        scene.looks.push_back(std::make_unique<gl::MaterialTextures>(gl, material));
+    if (options.environment) {
+        const auto& map = options.environment->map;
+        scene.environment = std::make_unique<gl::EnvironmentTextures>(gl, prepare_environment(map ? *map : neutral_environment()));
+    }
     PackedTextures empty;
     empty.grid_width = empty.grid_height = empty.data_width = empty.data_height = 1;
     empty.grid.assign(2, 0);
@@ -288,10 +301,7 @@ void draw_pass(const gl::Functions& gl, const gl::Program& program, const Asset&
         const MaterialInfo& material = asset.materials[index];
         (material.has_detail ? *scene.details[index] : *scene.none).bind(program);
         program.set("has_detail", material.has_detail ? 1 : 0);
-        gl.Uniform4f(program.at("base_color"), material.base_color[0], material.base_color[1],
-                     material.base_color[2], material.base_color[3]);
-        program.set("metallic", material.metallic);
-        program.set("roughness", material.roughness);
+        scene.looks[index]->bind(program);
         // A mesh seen from behind shows nothing unless its material says so.
         if (material.double_sided)
             gl.Disable(GL_CULL_FACE);
@@ -469,6 +479,8 @@ Status check(const Asset& asset, const RenderOptions& options) {
     if (!(camera.zoom > 0.0) || !(camera.field_of_view > 0.0) || camera.field_of_view > 120.0)
         return Error{ErrorCode::invalid_argument,
                      "zoom must be above 0, the angle of view above 0 and at most 120 degrees"};
+    if (options.environment && !(options.environment->strength >= 0.0 && std::isfinite(options.environment->strength)))
+        return Error{ErrorCode::invalid_argument, "the strength of an environment must be 0 or more"};
     for (const Primitive& primitive : asset.primitives)
         if (!primitive.indices.empty()) return Done{};
     return Error{ErrorCode::invalid_input, "the asset has no triangle to draw"};
@@ -484,14 +496,17 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     int kinds = 0;
     for (const auto& material : asset.materials)
         if (material.has_detail) kinds |= gl::function_kinds(material.textures);
-    auto program = gl::Program::build(gl, options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface, kinds);
+    auto program = gl::Program::build(
+        gl, {options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface, kinds, options.environment.has_value(),
+             gl::texture_kinds(asset)});
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
     if (!target) return target.error();
-    const Scene scene = load_scene(gl, asset);
+    const Scene scene = load_scene(gl, asset, options);
     const View view = place_camera(asset, options);
     program->use();
     set_view(*program, view, options);
+    if (options.environment) scene.environment->bind(*program, options.environment->rotation, options.environment->strength);
     gl.Enable(GL_DEPTH_TEST);
     gl.CullFace(GL_BACK);
     gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]),
