@@ -11,11 +11,18 @@ vec3 turn_to_environment(vec3 d) {
     return vec3(environment_turn.x * d.x - environment_turn.y * d.z, d.y, environment_turn.y * d.x + environment_turn.x * d.z);
 }
 
+// Between two levels such that the mean of both spreads a point of light as far as the roughness does: by its fourth power.
+float level_of(float rough) {
+    float lower = min(floor(rough * environment_levels), environment_levels - 1.0);
+    vec2 ends = pow(vec2(lower, lower + 1.0) / environment_levels, vec2(4.0));
+    return lower + clamp((pow(rough, 4.0) - ends.x) / (ends.y - ends.x), 0.0, 1.0);
+}
+
 vec3 mirrored_radiance(vec3 world, float rough) {
     vec3 d = turn_to_environment(world);
     float around = abs(d.x) + abs(d.z) > 0.0 ? atan(d.z, d.x) : 0.0;
     vec2 uv = vec2(0.5 + around * 0.15915494, acos(clamp(d.y, -1.0, 1.0)) * 0.31830989);
-    return textureLod(environment_radiance, uv, rough * environment_levels).rgb * environment_strength;
+    return textureLod(environment_radiance, uv, level_of(rough)).rgb * environment_strength;
 }
 
 // What a matt white surface shows.
