@@ -387,6 +387,60 @@ TEST(RenderLight, APathsOwnMaterialStandsInPlaceOfTheTextures) {
     }
 }
 
+double difference(const RgbaImage& a, const RgbaImage& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.texels.size(); ++i) sum += std::pow(double(a.texels[i]) - double(b.texels[i]), 2);
+    return std::sqrt(sum / double(a.texels.size()));
+}
+
+// Both ways of antialiasing give textures and surroundings the same look.
+TEST(RenderLight, AreasAreTheMeanOfRaysInAnEnvironment) {
+    const PreparedPattern p = prepare(crossing_pattern());
+    MaterialInfo material = plain(0.8f, 0.7f, 0.35f);
+    put_pattern(p, material);
+    material.base_color_texture = checker(0);
+    const Asset asset = plane(material);
+    for (const double elevation : {70.0, 30.0}) {
+        RenderOptions options = view_of(20, elevation, 48, 6);
+        options.light.strength = 1.5;
+        options.environment = Environment{map_of(64, hills), 0.0, 0.8};
+        options.samples = 36;
+        const auto rays = render_asset(asset, options);
+        SKIP_WITHOUT_CONTEXT(rays);
+        options.samples = 1;
+        options.antialiasing = Antialiasing::regions;
+        options.rays = 16;
+        const auto areas = render_asset(asset, options);
+        ASSERT_TRUE(rays.ok() && areas.ok());
+        // The checker's borders, which a pixel's one lookup blurs and rays do not, are most of it.
+        EXPECT_LT(difference(*areas, *rays), 2.0) << elevation;
+    }
+}
+
+// From where a cell is a few pixels to where a pixel is many cells.
+TEST(RenderLight, MeanLightOfAnEnvironmentStaysFromFarAway) {
+    const PreparedPattern p = prepare(crossing_pattern());
+    MaterialInfo material = plain(0.6f, 0.5f, 0.5f);
+    put_pattern(p, material);
+    const Asset asset = plane(material);
+    RenderOptions options = view_of(0, 90, 96, 1.03);
+    options.antialiasing = Antialiasing::regions;
+    options.environment = Environment{map_of(64, hills)};
+    double first = 0.0;
+    for (const int side : {96, 24, 6, 3, 1}) {
+        options.width = options.height = side;
+        const auto picture = render_asset(asset, options);
+        SKIP_WITHOUT_CONTEXT(picture);
+        ASSERT_TRUE(picture.ok()) << picture.error().message;
+        double sum = 0.0;
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) sum += pixel(*picture, x, y)[1];
+        const double mean = sum / (side * side);
+        if (first == 0.0) first = mean;
+        EXPECT_NEAR(mean / first, 1.0, 0.01) << side << " pixels";
+    }
+}
+
 // Level ground that a residual of one slope leans gathers what a slope of the kind does.
 TEST(RenderLight, TheResidualLeansWhatGathersLight) {
     const PreparedPattern p = prepare(long_groove(vee(0.01, 0.01)));
