@@ -21,12 +21,12 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "./" : path.substr(0, slash + 1);
 }
 
-Result<AssetFile> read_asset_file(const std::string& path) {
+Result<AssetFile> read_asset_file(const std::string& path, const AssetOptions& options) {
     auto bytes = read_file(path, kMaxModelFileBytes);
     if (!bytes) return bytes.error();
     if (!looks_like_gltf(*bytes))
         return Error{ErrorCode::unsupported, "'" + path + "' is neither binary glTF nor glTF JSON"};
-    auto asset = read_asset(*bytes, folder_of(path));
+    auto asset = read_asset(*bytes, folder_of(path), options);
     if (!asset) return Error{asset.error().code, "'" + path + "': " + asset.error().message};
     return AssetFile{std::move(*bytes), std::move(*asset)};
 }

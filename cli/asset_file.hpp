@@ -25,7 +25,7 @@ struct AssetFile {
     std::vector<std::uint8_t> bytes;
     Asset asset;
 };
-Result<AssetFile> read_asset_file(const std::string& path);
+Result<AssetFile> read_asset_file(const std::string& path, const AssetOptions& options = {});
 
 // Folder part of a path, with the slash; "./" when it has none.
 std::string folder_of(const std::string& path);

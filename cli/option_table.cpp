@@ -33,6 +33,7 @@ std::string plain(double value) {
 std::vector<OptionSpec> make_table() {
     const VectorizeOptions vectorize;
     const RenderOptions render;
+    const Environment environment;
     const std::string light = plain(render.light.azimuth) + "," + plain(render.light.elevation);
     const std::string depth = plain(vectorize.depth);
     const std::string tolerance = plain(vectorize.tolerance);
@@ -105,6 +106,14 @@ std::vector<OptionSpec> make_table() {
         {"--target", "render", numbers, "X,Y,Z", "m", "", -1e9, 1e9, "", false, "point the camera looks at"},
         {"--light", "render", numbers, "AZIMUTH,ELEVATION", "deg", light, -360, 360, "", false,
          "direction the light comes from"},
+        {"--light-strength", "render", number, "FACTOR", "", plain(render.light.strength), 0, 1000, "", false,
+         "of the directional light; 0 leaves all to the environment"},
+        {"--environment", "render", text, "WHICH", "", "none", 0, 0, "", false,
+         "light from all around: none, a soft surround; room, a grey room; or an equirectangular picture, .hdr or .exr"},
+        {"--environment-rotation", "render", number, "DEGREES", "deg", plain(environment.rotation), -360, 360, "", false,
+         "turns the environment about the vertical, as azimuths grow"},
+        {"--environment-strength", "render", number, "FACTOR", "", plain(environment.strength), 0, 1000, "", false,
+         "makes the environment brighter or darker"},
         {"--no-shadows", "render", flag, "", "", "", 0, 0, "", false, "leave shadows out"},
         {"--correct-depth", "render", flag, "", "", "", 0, 0, "", false,
          "other meshes are hidden by the relief and not by the mesh that carries it"},
@@ -133,7 +142,8 @@ const std::vector<OptionSpec>& option_table() {
 
 const std::vector<OptionConflict>& option_conflicts() {
     static const std::vector<OptionConflict> table = {
-        {"render", "--azimuth --elevation --zoom --center --fov --orthographic --eye --target --light --no-shadows --correct-depth",
+        {"render", "--azimuth --elevation --zoom --center --fov --orthographic --eye --target --light --light-strength --environment "
+         "--environment-rotation --environment-strength --no-shadows --correct-depth",
          "--top",
          "heights have neither camera nor light; --size, --samples, --material and --backend go with --top, and without "
          "--top all of them do"},

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include <burin/image_io.hpp>
 #include <burin/model.hpp>
+#include <burin/radiance.hpp>
 
 #include <gl/render.hpp>
 
@@ -52,6 +54,25 @@ std::array<double, 3> point_of(const Arguments& arguments, const std::string& na
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+// As --environment names it; options about one that is not there are a mistake.
+Status read_environment(const Arguments& arguments, RenderOptions& options) {
+    const std::string which = arguments.text("--environment");
+    if (which == "none") {
+        for (const char* other : {"--environment-rotation", "--environment-strength"})
+            if (arguments.given(other))
+                return Error{ErrorCode::invalid_argument, std::string(other) + " changes nothing with --environment none; room or a picture works"};
+        return Done{};
+    }
+    Environment environment{nullptr, arguments.number("--environment-rotation"), arguments.number("--environment-strength")};
+    if (which != "room") {
+        auto map = read_radiance(which);
+        if (!map) return map.error();
+        environment.map = std::make_shared<const RadianceMap>(std::move(*map));
+    }
+    options.environment = std::move(environment);
+    return Done{};
+}
+
 RenderOptions render_options(const Arguments& arguments) {
     RenderOptions options;
     const PictureSize size = picture_size(arguments, 0.75);
@@ -71,6 +92,7 @@ RenderOptions render_options(const Arguments& arguments) {
     const auto light = arguments.numbers("--light");
     options.light.azimuth = light[0];
     options.light.elevation = light[1];
+    options.light.strength = arguments.number("--light-strength");
     options.shadows = !arguments.flag("--no-shadows");
     options.correct_depth = arguments.flag("--correct-depth");
     options.samples = arguments.integer("--samples");
@@ -130,7 +152,8 @@ Result<PictureSize> draw_view(const Arguments& arguments, const Asset& asset, Wr
     // A view shows every material; a name that no pattern has is a mistake all the same.
     if (arguments.given("--material"))
         if (const auto found = find_patterned_material(asset, arguments.text("--material")); !found) return found.error();
-    const RenderOptions options = render_options(arguments);
+    RenderOptions options = render_options(arguments);
+    if (const Status read = read_environment(arguments, options); !read) return read.error();
     if (const Status placed = check_camera(options.camera, asset); !placed) return placed.error();
     const auto picture = render_asset(asset, options);
     if (!picture) return picture.error();
@@ -157,7 +180,7 @@ ExitCode run_render(const Arguments& arguments) {
     const std::string output = arguments.text("--output");
     if (const Status other = check_outputs({{"--output", output, {}}}, {arguments.file}); !other)
         return fail(arguments, ExitCode::usage, other.error().message);
-    const auto file = read_asset_file(arguments.file);
+    const auto file = read_asset_file(arguments.file, {.pictures = !top});
     if (!file) return fail(arguments, code_for_input(file.error()), file.error().message);
     Writer write;
     const auto size = top ? draw_heights(arguments, file->asset, write) : draw_view(arguments, file->asset, write);

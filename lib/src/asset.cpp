@@ -1,130 +1,13 @@
 // Finished assets as triangles and textures, for drawing and checking.
 #include <cmath>
 
+#include "asset_material.hpp"
 #include "gltf_geometry.hpp"
 
 namespace burin {
 namespace {
 
 using Vec3 = std::array<double, 3>;
-
-std::uint32_t word_at(const std::vector<std::uint8_t>& bytes, std::uint64_t at) {
-    std::uint32_t value = 0;
-    for (int i = 0; i < 4; ++i)
-        value |= static_cast<std::uint32_t>(bytes[at + static_cast<std::uint64_t>(i)]) << (8 * i);
-    return value;
-}
-
-// Words of a texture from its bufferView.
-Result<std::vector<std::uint32_t>> read_words(const ModelData& model, int view_index, std::uint64_t words,
-                                              const std::string& where) {
-    const Json& views = array_of(model.document, "bufferViews");
-    if (view_index < 0 || static_cast<std::size_t>(view_index) >= views.size())
-        return model_error(where + ": bufferView is " + std::to_string(view_index) + ", there are " +
-                           std::to_string(views.size()));
-    const Json& view = views[static_cast<std::size_t>(view_index)];
-    const std::uint64_t length = unsigned_or(view, "byteLength", 0);
-    if (view.contains("byteStride")) return model_error(where + ": its bufferView has a byteStride");
-    if (length < words * 4)
-        return model_error(where + ": its bufferView has " + std::to_string(length) + " bytes, its texels " +
-                           std::to_string(words * 4));
-    const auto& bytes = model.buffers[unsigned_or(view, "buffer", 0)];
-    const std::uint64_t begin = unsigned_or(view, "byteOffset", 0);
-    std::vector<std::uint32_t> result(words);
-    for (std::uint64_t i = 0; i < words; ++i) result[i] = word_at(bytes, begin + 4 * i);
-    return result;
-}
-
-Status read_textures(const ModelData& model, const std::string& where, MaterialInfo& info) {
-    PackedTextures& t = info.textures;
-    t.grid_width = info.detail.grid_width;
-    t.grid_height = info.detail.grid_height;
-    t.data_width = info.detail.data_width;
-    t.data_height = info.detail.data_height;
-    t.sections = info.detail.sections;
-    const auto texels = [](int w, int h) {
-        return static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h);
-    };
-    Result<std::vector<std::uint32_t>> grid =
-        read_words(model, info.detail.grid_view, 2 * texels(t.grid_width, t.grid_height), where + ".grid");
-    if (!grid.ok()) return grid.error();
-    Result<std::vector<std::uint32_t>> data =
-        read_words(model, info.detail.data_view, 4 * texels(t.data_width, t.data_height), where + ".data");
-    if (!data.ok()) return data.error();
-    t.grid = std::move(*grid);
-    t.data = std::move(*data);
-    return Done{};
-}
-
-Status read_charts(const ModelData& model, const std::string& where, MaterialInfo& info) {
-    const ChartLayout& charts = info.detail.charts;
-    if (charts.borders == 0) return Done{};
-    const auto texels = static_cast<std::uint64_t>(charts.width) * static_cast<std::uint64_t>(charts.height);
-    Result<std::vector<std::uint32_t>> words = read_words(model, charts.view, 4 * texels, where + ".charts");
-    if (!words.ok()) return words.error();
-    info.charts = std::move(*words);
-    return Done{};
-}
-
-// Bytes of an image, wherever they lie.
-Result<std::vector<std::uint8_t>> image_bytes(const ModelData& model, std::uint64_t index, const std::string& where) {
-    const Json& images = array_of(model.document, "images");
-    if (index >= images.size()) return model_error(where + ": there is no image " + std::to_string(index));
-    if (!model.images[index].bytes.empty()) return model.images[index].bytes;
-    const Json& views = array_of(model.document, "bufferViews");
-    const std::uint64_t place = unsigned_or(images[index], "bufferView", views.size());
-    if (place >= views.size()) return model_error(where + ": its image has neither bytes nor a bufferView");
-    const auto& buffer = model.buffers[unsigned_or(views[place], "buffer", 0)];
-    const auto begin = buffer.begin() + static_cast<std::ptrdiff_t>(unsigned_or(views[place], "byteOffset", 0));
-    return std::vector<std::uint8_t>(begin, begin + static_cast<std::ptrdiff_t>(unsigned_or(views[place], "byteLength", 0)));
-}
-
-Status read_residual(const ModelData& model, const std::string& where, MaterialInfo& info) {
-    if (info.detail.residual_texture < 0) return Done{};
-    constexpr std::uint64_t kMostTexels = 1u << 28;
-    const std::string place = where + ".residualTexture";
-    const Json& textures = array_of(model.document, "textures");
-    const auto index = static_cast<std::size_t>(info.detail.residual_texture);
-    if (index >= textures.size())
-        return model_error(place + ": index is " + std::to_string(index) + ", there are " + std::to_string(textures.size()) +
-                           " textures");
-    auto bytes = image_bytes(model, unsigned_or(textures[index], "source", ~std::uint64_t{0}), place);
-    if (!bytes) return bytes.error();
-    auto picture = decode_picture(std::move(*bytes), kMostTexels);
-    if (!picture) return Error{picture.error().code, place + ": " + picture.error().message};
-    info.residual = std::move(*picture);
-    return Done{};
-}
-
-Result<MaterialInfo> read_material(const ModelData& model, std::size_t index) {
-    const Json& material = array_of(model.document, "materials")[index];
-    MaterialInfo info;
-    info.name = text_or(material, "name", "");
-    const Json* sided = find_member(material, "doubleSided");
-    info.double_sided = sided != nullptr && sided->is_boolean() && sided->get<bool>();
-    if (const Json* pbr = find_member(material, "pbrMetallicRoughness"); pbr != nullptr) {
-        info.metallic = static_cast<float>(number_or(*pbr, "metallicFactor", 1.0));
-        info.roughness = static_cast<float>(number_or(*pbr, "roughnessFactor", 1.0));
-        const Json& color = array_of(*pbr, "baseColorFactor");
-        for (std::size_t i = 0; i < 4 && color.size() == 4; ++i)
-            if (color[i].is_number()) info.base_color[i] = color[i].get<float>();
-    }
-    const Json* extensions = find_member(material, "extensions");
-    const Json* extension =
-        extensions == nullptr ? nullptr : find_member(*extensions, std::string(kPathDetailExtension).c_str());
-    if (extension == nullptr) return info;
-    const std::string where =
-        place(model.document, "materials", index) + "." + std::string(kPathDetailExtension);
-    Result<PathDetail> detail =
-        parse_extension(extension->dump(-1, ' ', false, Json::error_handler_t::replace));
-    if (!detail.ok()) return Error{detail.error().code, where + ": " + detail.error().message};
-    info.detail = *detail;
-    info.has_detail = true;
-    if (Status status = read_textures(model, where, info); !status.ok()) return status.error();
-    if (Status status = read_charts(model, where, info); !status.ok()) return status.error();
-    if (Status status = read_residual(model, where, info); !status.ok()) return status.error();
-    return info;
-}
 
 double determinant(const Matrix& m) {
     return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
@@ -204,13 +87,16 @@ Status read_chart_numbers(const ModelData& model, const Json& item, Primitive& p
 
 class AssetReader {
   public:
-    explicit AssetReader(const ModelData& model) : model_(model) {}
+    AssetReader(const ModelData& model, const AssetOptions& options) : model_(model), pictures_(model), options_(options) {}
 
     Result<Asset> run() {
         const std::size_t materials = array_of(model_.document, "materials").size();
         for (std::size_t i = 0; i < materials; ++i) {
             Result<MaterialInfo> info = read_material(model_, i);
             if (!info.ok()) return Error{info.error().code, "glTF: " + info.error().message};
+            if (options_.pictures)
+                if (Status status = read_material_textures(model_, i, pictures_, *info); !status.ok())
+                    return Error{status.error().code, "glTF: " + status.error().message};
             asset_.materials.push_back(std::move(*info));
         }
         for (const PlacedMesh& placed : placed_meshes(model_))
@@ -249,6 +135,8 @@ class AssetReader {
         const int set = asset_.materials[static_cast<std::size_t>(primitive.material)].detail.tex_coord;
         const auto uvs = attribute_of(item, "TEXCOORD_" + std::to_string(set));
         primitive.uvs = uvs.has_value() ? read_numbers(model_, *uvs) : std::vector<float>(2 * count, 0.0f);
+        if (wants_texture_uvs(asset_.materials[static_cast<std::size_t>(primitive.material)]))
+            primitive.texture_uvs = read_texture_uvs(item, count);
         if (Status status = read_frames(model_, item, primitive); !status.ok()) return status.error();
         if (Status status = read_chart_numbers(model_, item, primitive); !status.ok()) return status.error();
         transform_vertices(transform, primitive);
@@ -256,18 +144,32 @@ class AssetReader {
         return Done{};
     }
 
+    // Sets 0 and 1 side by side; zero where the file has none.
+    std::vector<float> read_texture_uvs(const Json& item, std::uint64_t count) {
+        std::vector<float> values(4 * count, 0.0f);
+        for (std::size_t set = 0; set < 2; ++set) {
+            const auto accessor = attribute_of(item, "TEXCOORD_" + std::to_string(set));
+            if (!accessor.has_value()) continue;
+            const std::vector<float> uvs = read_numbers(model_, *accessor);
+            for (std::size_t i = 0; i < uvs.size(); ++i) values[4 * (i / 2) + 2 * set + i % 2] = uvs[i];
+        }
+        return values;
+    }
+
     const ModelData& model_;
+    PictureCache pictures_;
+    AssetOptions options_;
     Asset asset_;
     std::uint64_t vertices_ = 0, indices_ = 0;
 };
 
 }  // namespace
 
-Result<Asset> read_asset(std::span<const std::uint8_t> bytes, const std::string& base_folder) {
+Result<Asset> read_asset(std::span<const std::uint8_t> bytes, const std::string& base_folder, const AssetOptions& options) {
     Result<ModelData> model = load_document(bytes, base_folder);
     if (!model.ok()) return model.error();
     if (Status status = check_document(*model); !status.ok()) return status.error();
-    return AssetReader(*model).run();
+    return AssetReader(*model, options).run();
 }
 
 }  // namespace burin

@@ -7,6 +7,7 @@
 #include <burin/charts.hpp>
 #include <burin/image_io.hpp>
 
+#include "asset_material.hpp"
 #include "gltf_geometry.hpp"
 #include "gltf_places.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr const char* kReplacedNormalTexture = "burin_replaced_normal_texture";
 constexpr const char* kNormalName = "path detail, normals";
-constexpr const char* kOcclusionName = "path detail, occlusion";
 constexpr const char* kResidualName = "path detail, residual";
 // Views start on multiples of four bytes as glTF asks; the textures on sixteen, so that a mapped file can be
 // uploaded as it lies.
@@ -250,7 +250,7 @@ void GlbWriter::detach(std::size_t index) {
     material["extensions"].erase(extension_name);
     auto normal = take_off(material, "normalTexture", kNormalName);
     if (!normal) normal = take_off(material, "normalTexture", kResidualName);
-    const auto occlusion = take_off(material, "occlusionTexture", kOcclusionName);
+    const auto occlusion = take_off(material, "occlusionTexture", kFallbackOcclusionName);
     if (normal) restore_normal_texture(material, array_of(document_, "textures").size());
     const auto residual = take_off_residual(extension);
     for (const auto& texture : {normal, occlusion, residual})
@@ -402,7 +402,7 @@ Status add_fallback(GlbWriter& writer, Json& material, const Fallback& fallback,
     }
     if (fallback.occlusion.width == 0 || material.contains("occlusionTexture")) return Done{};
     Result<std::size_t> occlusion =
-        writer.add_texture(fallback.occlusion, kOcclusionName, writer.add_sampler(detail.repeat));
+        writer.add_texture(fallback.occlusion, kFallbackOcclusionName, writer.add_sampler(detail.repeat));
     if (!occlusion.ok()) return occlusion.error();
     material["occlusionTexture"] = {{"index", *occlusion}};
     if (detail.tex_coord != 0) material["occlusionTexture"]["texCoord"] = detail.tex_coord;

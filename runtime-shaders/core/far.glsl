@@ -38,14 +38,20 @@ vec3 burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool shadow
             float to = clamp(same ? 1.0f : 1.0f - hidden, seen, 1.0f);
             vec2 across = (point - last) * order;
             vec3 n = vec3(normal * across.y, across.x);
-            vec3 facet = burin_facet_color(normalize(n), style.material, max(to - from, 0.0f) / (1.0f - seen));
-            sum = sum + (facet - ground) * ((1.0f - seen) * (way - last_way));
+            vec2 middle = (last + point) * 0.5f;
+            BurinFacet facet;
+            facet.normal = normalize(n);
+            facet.material = style.material;
+            facet.lit = max(to - from, 0.0f) / (1.0f - seen);
+            facet.drop = style.level + middle.y;
+            facet.nook = burin_nook(style, scales, normal, vec2(middle.x / style.reach, -middle.y / (scales.y * burin_map.depth)));
+            sum = sum + (burin_facet_color(facet) - ground) * ((1.0f - seen) * (way - last_way));
         }
         run = max(run, way);
         last = point;
         last_way = way;
     }
     float shadow = shade.beyond - (same ? max(run - last_way, 0.0f) : 0.0f);
-    if (shadow > 0.0f) sum = sum + (burin_facet_color(vec3(0.0f, 0.0f, 1.0f), 0u, 0.0f) - ground) * shadow;
+    if (shadow > 0.0f) sum = sum + (burin_shadow_color() - ground) * shadow;
     return sum * (1.0f / style.reach);
 }

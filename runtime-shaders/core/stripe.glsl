@@ -2,7 +2,8 @@
 // the share of the pixel that shows it and the share of that which is lit. [2010] 5.7 (region sampling), with the ends
 // of the stretch taken into account.
 //
-// Needs from whoever shades: vec3 burin_facet_color(vec3 normal, uint material, float lit), the colour of a facet.
+// Needs from whoever shades: vec3 burin_facet_color(BurinFacet facet), and vec3 burin_shadow_color(), that of the
+// pixel's ground where the light does not reach it.
 
 // What the pixel has gathered. Colours are kept as differences to lit ground, so that ground needs no area of its own.
 struct BurinRegion {
@@ -270,9 +271,19 @@ BurinShade burin_shade_profile(BurinStyle style, vec2 scales, BurinBend bend, bo
     return shade;
 }
 
+// Where between two rails, the left one first, the middle lies of what a pixel of that radius sees of the facet.
+float burin_facet_middle(BurinRail left, BurinRail right, float radius) {
+    float from = 0.5f * (left.way.x + left.way.y);
+    float to = 0.5f * (right.way.x + right.way.y);
+    float wide = abs(to - from);
+    if (wide <= 1.0e-3f * radius) return 0.5f;
+    float at = from / (from - to);
+    return 0.5f * (clamp(at - radius / wide, 0.0f, 1.0f) + clamp(at + radius / wide, 0.0f, 1.0f));
+}
+
 // One facet, from the rail that the ray passes first: `seen` of the way to the next one is hidden, and the light misses the
 // first `hidden` of it, counted along the light's way.
-void burin_add_facet(BurinElement e, BurinStyle style, BurinRail last, BurinRail next, vec2 seen, float order,
+void burin_add_facet(BurinElement e, BurinStyle style, BurinStretch stretch, float radius, BurinRail last, BurinRail next, vec2 seen, float order,
                      float hidden, bool same, BURIN_INOUT(BurinRegion) region) {
     vec2 one = vec2(1.0f, 1.0f);
     float area = burin_strip_area(last, next, seen, one);
@@ -286,9 +297,15 @@ void burin_add_facet(BurinElement e, BurinStyle style, BurinRail last, BurinRail
         left = next;
         right = last;
     }
-    vec3 normal = burin_facet_normal(e, style, left, right);
-    vec3 color = burin_facet_color(normal, style.material, min(lit / area, 1.0f));
-    region.color = region.color + (color - region.ground) * area;
+    float middle = burin_facet_middle(left, right, radius);
+    BurinFacet facet;
+    facet.normal = burin_facet_normal(e, style, left, right);
+    facet.material = style.material;
+    facet.lit = min(lit / area, 1.0f);
+    facet.drop = mix(left.drop, right.drop, middle);
+    vec2 place = vec2(mix(left.b, right.b, middle) / style.reach, (style.level - facet.drop) / burin_map.depth) / stretch.scales;
+    facet.nook = burin_nook(style, stretch.scales, stretch.normal, place);
+    region.color = region.color + (burin_facet_color(facet) - region.ground) * area;
 }
 
 // Adds the facets of one stretch; returns the places that they and their shadow cover.
@@ -310,7 +327,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
             vec2 seen = vec2(burin_hidden(run.x, last.way.x * order, next.way.x * order),
                              burin_hidden(run.y, last.way.y * order, next.way.y * order));
             if (min(seen.x, seen.y) < 1.0f && !shade.folded)
-                burin_add_facet(e, style, last, next, seen, order, shade.hidden[order > 0.0f ? k - 1 : i], same, region);
+                burin_add_facet(e, style, stretch, footprint.radius, last, next, seen, order, shade.hidden[order > 0.0f ? k - 1 : i], same, region);
         }
         if (next.way.x * order > run.x) {
             far.from = next.from;
@@ -347,7 +364,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
     }
     if (behind >= shade.beyond) return mask;
     float area = burin_strip_area(near, rim, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
-    vec3 color = burin_facet_color(vec3(0.0f, 0.0f, 1.0f), 0u, 0.0f);
+    vec3 color = burin_shadow_color();
     region.color = region.color + (color - region.ground) * area;
     region.strip_area = region.strip_area + area;
     return mask | burin_strip_mask(near, rim);

@@ -4,6 +4,7 @@ struct BurinSurface {
     vec3 normal;  // z up, unit length
     int facet;    // of the profile, or BURIN_FACET_GROUND, BURIN_FACET_WALL
     uint material;
+    BurinNook nook;
 };
 
 // The upright facet on the path line of a step that the drop t lies on.
@@ -27,13 +28,21 @@ vec3 burin_wall_normal(vec2 wall, vec2 slope) {
     return vec3(n.x, n.y, 0.0f);
 }
 
+// Nothing is known of what stands around an upright wall.
+BurinSurface burin_wall(BurinSurface s, BurinHit hit) {
+    s.normal = burin_wall_normal(hit.mark.wall, hit.ray.slope);
+    s.nook = burin_open_nook(vec2(s.normal.x, s.normal.y));
+    return s;
+}
+
 BurinSurface burin_surface(BurinHit hit) {
     BurinSurface s;
     s.facet = hit.mark.facet;
     s.material = 0u;
     s.normal = vec3(0.0f, 0.0f, 1.0f);
+    s.nook = burin_open_nook(vec2(1.0f, 0.0f));
     if (hit.mark.element == BURIN_NO_ELEMENT) {
-        if (s.facet == BURIN_FACET_WALL) s.normal = burin_wall_normal(hit.mark.wall, hit.ray.slope);
+        if (s.facet == BURIN_FACET_WALL) s = burin_wall(s, hit);
         return s;
     }
     BurinElement e = burin_element(hit.mark.element, hit.ray.origin, hit.centre);
@@ -41,8 +50,7 @@ BurinSurface burin_surface(BurinHit hit) {
     s.material = style.material;
     if (s.facet == BURIN_FACET_STEP) s.facet = burin_step_facet(e, style, hit.t);
     if (hit.mark.facet < 0) {
-        s.normal = burin_wall_normal(hit.mark.wall, hit.ray.slope);
-        return s;
+        return burin_wall(s, hit);
     }
     BurinPiece piece = burin_whole(e, hit.t, hit.t);
     if (hit.mark.part != BURIN_PART_MAIN)
@@ -56,5 +64,7 @@ BurinSurface burin_surface(BurinHit hit) {
     vec2 n = along_h * -edge.x - along_b * edge.y;
     vec3 normal = vec3(n.x, n.y, edge.x / (section.height * burin_map.depth));
     s.normal = length(normal) > 0.0f ? normalize(normal) : vec3(0.0f, 0.0f, 1.0f);
+    vec2 across = burin_direction(section.gradient, vec2(1.0f, 0.0f));
+    s.nook = burin_nook(style, vec2(section.width, section.height), across, section.q);
     return s;
 }

@@ -62,11 +62,13 @@ class Core {
 #include "core/chord.glsl"
 #include "core/chart.glsl"
 #include "core/curvature.glsl"
+#include "core/facet.glsl"
 #include "core/surface.glsl"
 #include "core/residual.glsl"
 
     // Shading by normal and light alone.
-    vec3 burin_facet_color(vec3 normal, uint, float lit) const { return vec3(normal.z, lit, 1.0f); }
+    vec3 burin_facet_color(BurinFacet facet) const { return vec3(facet.normal.z, facet.lit, 1.0f); }
+    vec3 burin_shadow_color() const { return vec3(1.0f, 0.0f, 1.0f); }
 
 #include "core/footprint.glsl"
 #include "core/stripe.glsl"

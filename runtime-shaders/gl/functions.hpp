@@ -30,6 +30,7 @@ namespace burin::gl {
     F(UNIFORM2F, Uniform2f)                          \
     F(UNIFORM3F, Uniform3f)                          \
     F(UNIFORM4F, Uniform4f)                          \
+    F(UNIFORM4I, Uniform4i)                          \
     F(UNIFORMMATRIX4FV, UniformMatrix4fv)            \
     F(GENTEXTURES, GenTextures)                      \
     F(DELETETEXTURES, DeleteTextures)                \

@@ -112,33 +112,37 @@ int function_kinds(const PackedTextures& textures) {
     return kinds & 7;
 }
 
-std::string fragment_text(Stage stage, const Features& features) {
+std::string fragment_text(const ProgramKind& kind) {
+    const Stage stage = kind.stage;
     std::string text = kVersion;
     if (stage == Stage::surface_with_depth) text += "#define BURIN_CORRECT_DEPTH\n";
-    text += "#define BURIN_FUNCTION_KINDS " + std::to_string(features.function_kinds) + "\n";
-    text += features.charts ? "#define BURIN_CHARTS 1\n" : "#define BURIN_CHARTS 0\n";
+    text += "#define BURIN_FUNCTION_KINDS " + std::to_string(kind.function_kinds) + "\n";
+    text += "#define BURIN_TEXTURES " + std::to_string(kind.textures) + "\n";
+    text += kind.environment ? "#define BURIN_ENVIRONMENT\n" : "#define BURIN_NOOKS 0\n";
+    text += kind.charts ? "#define BURIN_CHARTS 1\n" : "#define BURIN_CHARTS 0\n";
     text += shader_text::layout;
     text += shader_text::types;
     text += shader_text::bindings;
     for (const char* part :
          {shader_text::fetch, shader_text::perturbation, shader_text::curve, shader_text::domain, shader_text::section,
-          shader_text::ground, shader_text::trace, shader_text::chord, shader_text::chart, shader_text::curvature, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
+          shader_text::ground, shader_text::trace, shader_text::chord, shader_text::chart, shader_text::curvature, shader_text::facet, shader_text::surface, shader_text::residual, shader_text::residual_fetch})
         text += part;
     if (stage == Stage::rays) return text + shader_text::rays_frag;
     if (stage == Stage::top) return text + shader_text::top_frag;
-    for (const char* part : {shader_text::curved, shader_text::frame, shader_text::shade, shader_text::footprint, shader_text::stripe,
+    for (const char* part : {shader_text::curved, shader_text::frame, shader_text::material,
+                             kind.environment ? shader_text::environment : "", shader_text::shade, shader_text::footprint, shader_text::stripe,
                              shader_text::region, shader_text::far, shader_text::far_fetch, shader_text::pixel_filter, shader_text::surface_frag})
         text += part;
     return text;
 }
 
-Result<Program> Program::build(const Functions& gl, Stage stage, const Features& features) {
+Result<Program> Program::build(const Functions& gl, const ProgramKind& kind) {
     const std::string vertex_text =
         std::string(kVersion) +
-        (stage == Stage::rays || stage == Stage::top ? shader_text::screen_vert : shader_text::surface_vert);
+        (kind.stage == Stage::rays || kind.stage == Stage::top ? shader_text::screen_vert : shader_text::surface_vert);
     auto vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
     if (!vertex) return vertex.error();
-    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(stage, features));
+    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(kind));
     if (!fragment) {
         gl.DeleteShader(*vertex);
         return fragment.error();

@@ -20,19 +20,22 @@ enum class Stage { rays, top, surface, surface_with_depth };  // the last writes
 // Kinds of functions along paths that the textures hold, for BURIN_FUNCTION_KINDS of core/types.glsl.
 int function_kinds(const PackedTextures& textures);
 
-// What a program is built for: what it need not know costs it nothing.
-struct Features {
-    int function_kinds = 0;
-    bool charts = false;  // meshes whose texture coordinates are cut
+// What a program is made for.
+struct ProgramKind {
+    Stage stage = Stage::surface;
+    int function_kinds = 7;    // of the textures that it will draw
+    bool environment = false;  // surfaces only: lit by one, instead of a soft surround
+    int textures = 0;          // surfaces only: which ones materials have, for BURIN_TEXTURES of gl/material.glsl
+    bool charts = false;       // surfaces only: texture coordinates are cut
 };
 
-// Text of a fragment shader as the driver gets it: version, features, layout.h, core, bindings, main.
-std::string fragment_text(Stage stage, const Features& features);
+// Text of a fragment shader as the driver gets it: version, kinds of functions, layout.h, core, bindings, main.
+std::string fragment_text(const ProgramKind& kind);
 
 class Program {
   public:
-    // For textures and meshes with no other features. Fails with unavailable, carrying the driver's log.
-    static Result<Program> build(const Functions& gl, Stage stage, const Features& features);
+    // Fails with unavailable, carrying the driver's log.
+    static Result<Program> build(const Functions& gl, const ProgramKind& kind);
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
     ~Program();

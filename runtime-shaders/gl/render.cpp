@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gl/look_textures.hpp"
 #include "gl/pixel_filter.h"
 #include "gl/program.hpp"
 
@@ -206,7 +207,8 @@ class Mesh {
         // Without frames the second derivatives are those of OpenGL's disabled attributes: zero.
         const bool framed = !primitive.frames.empty();
         attributes(3, framed ? 5 : 2, framed ? frames_of(primitive) : directions_of(primitive));
-        if (!primitive.charts.empty()) attribute(8, 1, primitive.charts);
+        if (!primitive.texture_uvs.empty()) attribute(8, 4, primitive.texture_uvs, 0, 5);
+        if (!primitive.charts.empty()) attribute(9, 1, primitive.charts, 0, 6);
         gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[4]);
         gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(primitive.indices.size() * 4),
                        primitive.indices.data(), GL_STATIC_DRAW);
@@ -235,18 +237,21 @@ class Mesh {
     }
     // `stride` floats from one vertex to the next; 0: packed.
     void attribute(GLuint place, GLint components, const std::vector<float>& values, int stride = 0) {
-        gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[std::min<GLuint>(place, 5)]);
+        attribute(place, components, values, stride, place);
+    }
+    void attribute(GLuint place, GLint components, const std::vector<float>& values, int stride, std::size_t buffer) {
+        gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[buffer]);
         gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * 4), values.data(), GL_STATIC_DRAW);
         gl_.VertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, GLsizei(stride * int(sizeof(float))),
                                 nullptr);
         gl_.EnableVertexAttribArray(place);
     }
 
-    static constexpr int kBuffers = 6;
+    static constexpr int kBuffers = 7;
     const gl::Functions& gl_;
     GLsizei count_;
     GLuint array_ = 0;
-    GLuint buffers_[kBuffers] = {};  // attributes up to the derivatives, indices, charts
+    GLuint buffers_[kBuffers] = {};  // attributes up to the derivatives, indices, other uvs, charts
 };
 
 // The asset in the context: meshes, textures and the program.
@@ -254,9 +259,11 @@ struct Scene {
     std::vector<std::unique_ptr<Mesh>> meshes;
     std::vector<std::unique_ptr<gl::DetailTextures>> details;  // one per material, null without detail
     std::unique_ptr<gl::DetailTextures> none;                  // stands in where a material has no detail
+    std::vector<std::unique_ptr<gl::MaterialTextures>> looks;  // one per material
+    std::unique_ptr<gl::EnvironmentTextures> environment;      // null without one
 };
 
-Scene load_scene(const gl::Functions& gl, const Asset& asset) {
+Scene load_scene(const gl::Functions& gl, const Asset& asset, const RenderOptions& options) {
     Scene scene;
     for (const Primitive& primitive : asset.primitives)
         scene.meshes.push_back(std::make_unique<Mesh>(gl, primitive));
@@ -264,6 +271,12 @@ Scene load_scene(const gl::Functions& gl, const Asset& asset) {
         scene.details.push_back(
             material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail, material.residual, material.charts)
                                 : nullptr);
+    for (const MaterialInfo& material : asset.materials)
+        scene.looks.push_back(std::make_unique<gl::MaterialTextures>(gl, material));
+    if (options.environment) {
+        const auto& map = options.environment->map;
+        scene.environment = std::make_unique<gl::EnvironmentTextures>(gl, prepare_environment(map ? *map : neutral_environment()));
+    }
     PackedTextures empty;
     empty.grid_width = empty.grid_height = empty.data_width = empty.data_height = 1;
     empty.grid.assign(2, 0);
@@ -272,13 +285,17 @@ Scene load_scene(const gl::Functions& gl, const Asset& asset) {
     return scene;
 }
 
-gl::Features features_of(const Asset& asset) {
-    gl::Features features;
+gl::ProgramKind program_for(const Asset& asset, const RenderOptions& options) {
+    gl::ProgramKind kind;
+    kind.stage = options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface;
+    kind.function_kinds = 0;
+    kind.environment = options.environment.has_value();
+    kind.textures = gl::texture_kinds(asset);
     for (const MaterialInfo& material : asset.materials) {
-        if (material.has_detail) features.function_kinds |= gl::function_kinds(material.textures);
-        features.charts = features.charts || !material.charts.empty();
+        if (material.has_detail) kind.function_kinds |= gl::function_kinds(material.textures);
+        kind.charts = kind.charts || !material.charts.empty();
     }
-    return features;
+    return kind;
 }
 
 void set_view(const gl::Program& program, const View& view, const RenderOptions& options) {
@@ -299,11 +316,8 @@ void draw_pass(const gl::Functions& gl, const gl::Program& program, const Asset&
         const MaterialInfo& material = asset.materials[index];
         (material.has_detail ? *scene.details[index] : *scene.none).bind(program);
         program.set("has_detail", material.has_detail ? 1 : 0);
-        gl.Uniform4f(program.at("base_color"), material.base_color[0], material.base_color[1],
-                     material.base_color[2], material.base_color[3]);
+        scene.looks[index]->bind(program);
         program.set("mirrored", asset.primitives[i].mirrored ? 1 : 0);
-        program.set("metallic", material.metallic);
-        program.set("roughness", material.roughness);
         // A mesh seen from behind shows nothing unless its material says so.
         if (material.double_sided)
             gl.Disable(GL_CULL_FACE);
@@ -481,6 +495,8 @@ Status check(const Asset& asset, const RenderOptions& options) {
     if (!(camera.zoom > 0.0) || !(camera.field_of_view > 0.0) || camera.field_of_view > 120.0)
         return Error{ErrorCode::invalid_argument,
                      "zoom must be above 0, the angle of view above 0 and at most 120 degrees"};
+    if (options.environment && !(options.environment->strength >= 0.0 && std::isfinite(options.environment->strength)))
+        return Error{ErrorCode::invalid_argument, "the strength of an environment must be 0 or more"};
     for (const Primitive& primitive : asset.primitives)
         if (!primitive.indices.empty()) return Done{};
     return Error{ErrorCode::invalid_input, "the asset has no triangle to draw"};
@@ -493,14 +509,20 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     auto context = gl::open_context(options.backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
-    auto program = gl::Program::build(gl, options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface, features_of(asset));
+    int kinds = 0;
+    for (const auto& material : asset.materials)
+        if (material.has_detail) kinds |= gl::function_kinds(material.textures);
+    auto program = gl::Program::build(
+        gl, {options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface, kinds, options.environment.has_value(),
+             gl::texture_kinds(asset)});
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
     if (!target) return target.error();
-    const Scene scene = load_scene(gl, asset);
+    const Scene scene = load_scene(gl, asset, options);
     const View view = place_camera(asset, options);
     program->use();
     set_view(*program, view, options);
+    if (options.environment) scene.environment->bind(*program, options.environment->rotation, options.environment->strength);
     gl.Enable(GL_DEPTH_TEST);
     gl.CullFace(GL_BACK);
     gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]),

@@ -6,13 +6,15 @@
 //
 // World space is glTF's: right-handed, y up, metres. Directions are given as azimuth and elevation in
 // degrees: azimuth 0 is +z (in front of a model, at the lower edge of a plane), 90 is +x; elevation 90 is +y.
-// Shading: metallic-roughness of the glTF material or the pattern's override, one directional light, a soft
-// ambient term, the residual's slopes added to the paths' (SPECIFICATION.md, section 13). Where a detail is drawn the core normal and occlusion textures are its fallback and are not
-// used. Source: [2010] 5; perspective and shadows 5.6.
+// Shading: metallic-roughness of the glTF material with its textures, looked up where the ray meets the relief, or the pattern's
+// own (SPECIFICATION.md, section 10); one directional light, and a soft ambient term or an environment; the residual's slopes added to the
+// paths' (section 13). Where a detail is drawn the core normal texture and the occlusion that burin baked are its fallback and are not
+// used; without detail the normal texture is not either. Source: [2010] 5; perspective and shadows 5.6.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +24,7 @@
 #include <burin/image.hpp>
 #include <burin/image_io.hpp>
 #include <burin/model.hpp>
+#include <burin/radiance.hpp>
 #include <burin/result.hpp>
 
 namespace burin {
@@ -47,7 +50,15 @@ struct Light {
     double azimuth = -50.0;   // degrees, where the light comes from
     double elevation = 35.0;  // degrees
     double strength = 3.0;    // irradiance of the directional light in units of pi / white
-    double ambient = 0.22;    // of the same
+    double ambient = 0.22;    // of the same, from a soft surround; not asked where there is an environment
+};
+
+// Light from all around, and what smooth metals mirror. What lies in a groove gets as much of it as an endless one of its profile
+// lets in; it throws no shadows.
+struct Environment {
+    std::shared_ptr<const RadianceMap> map;  // null: a grey room without a file
+    double rotation = 0.0;                   // degrees about y, towards larger azimuths; 0: the picture's middle lies at azimuth 90
+    double strength = 1.0;                   // factor of its radiance, >= 0; a matt white surface shows its mean where that is 1
 };
 
 // How the shader filters a pixel. points: the mean of rays. regions: the features of a pixel as areas, exact where they
@@ -58,6 +69,7 @@ struct RenderOptions {
     int width = 1024, height = 768;  // pixels, [1, 8192]
     Camera camera;
     Light light;
+    std::optional<Environment> environment;  // none: the light's ambient term
     bool shadows = true;
     // Depths are those of the relief, not of the mesh, so that other things that stand in it, and effects that read the
     // depth, agree with it. Costs the early depth test: what is hidden is drawn all the same.

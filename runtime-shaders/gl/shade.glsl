@@ -1,10 +1,8 @@
-// Metallic-roughness shading of what a ray has met: one directional light and a soft surround.
+// Metallic-roughness shading of what a ray has met: one directional light, and a soft surround or, with BURIN_ENVIRONMENT, an
+// environment. Stands behind gl/material.glsl and, with it, gl/environment.glsl.
 uniform vec3 light;         // towards the light, unit length
 uniform float light_strength;
 uniform float ambient;
-uniform vec4 base_color;    // linear
-uniform float metallic;
-uniform float roughness;
 
 // The pixel's own: set by main before anything is shaded.
 vec3 to_eye;
@@ -12,36 +10,99 @@ mat3 to_pattern;     // world directions to pattern space
 vec2 rest_slopes;    // of the residual
 
 // Lambert and GGX with Smith's shadowing, for one light; colours linear.
-vec3 shade(vec3 n, vec3 albedo, float metal, float rough, float lit) {
+vec3 shade_lamp(vec3 n, Paint paint, float lit) {
     vec3 halfway = normalize(to_eye + light);
     float nl = max(dot(n, light), 0.0);
     float nv = max(dot(n, to_eye), 1.0e-3);
     float nh = max(dot(n, halfway), 0.0);
-    float a = max(rough * rough, 2.0e-3);
+    float a = max(paint.rough * paint.rough, 2.0e-3);
     float a2 = a * a;
     float d = a2 / (3.14159265 * pow(nh * nh * (a2 - 1.0) + 1.0, 2.0));
     float visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1.0e-6);
-    vec3 f0 = mix(vec3(0.04), albedo, metal);
+    vec3 f0 = mix(vec3(0.04), paint.albedo, paint.metal);
     vec3 fresnel = f0 + (vec3(1.0) - f0) * pow(1.0 - max(dot(to_eye, halfway), 0.0), 5.0);
-    vec3 diffuse = albedo * (1.0 - metal) / 3.14159265;
-    vec3 direct = (diffuse * (vec3(1.0) - fresnel) + fresnel * (d * visible)) * (nl * lit * light_strength);
-    // The sky is brighter than the ground; a metal mirrors what a matt surface gathers.
-    float sky = 0.5 + 0.5 * n.y;
-    vec3 around = mix(albedo * (1.0 - metal), fresnel * mix(1.0, 0.75, rough), mix(0.1, 1.0, metal));
-    return direct + around * ambient * mix(0.35, 1.0, sky);
+    vec3 diffuse = paint.albedo * (1.0 - paint.metal) / 3.14159265;
+    return (diffuse * (vec3(1.0) - fresnel) + fresnel * (d * visible)) * (nl * lit * light_strength);
 }
 
-// Of a facet, `normal` in pattern space.
-vec3 burin_facet_color(vec3 normal, uint material, float lit) {
-    vec3 albedo = base_color.rgb;
-    float metal = metallic;
-    float rough = roughness;
-    BurinMaterial own = burin_material(material);
-    if (own.overrides) {
-        albedo = own.base_color.rgb;
-        metal = own.metallic;
-        rough = own.roughness;
-    }
-    vec3 n = normalize(transpose(to_pattern) * burin_bend_normal(bend, bend_moved, bend_drop, burin_add_slopes(normal, rest_slopes)));
-    return clamp(shade(n, albedo, metal, rough, lit), 0.0, 1.0);
+#ifdef BURIN_ENVIRONMENT
+// A normal of pattern space in the world.
+vec3 world_of(vec3 normal) {
+    return normalize(transpose(to_pattern) * burin_bend_normal(bend, bend_moved, bend_drop, normal));
+}
+
+// The split sum, with what facets mirror more than once (C. Fdez-Aguera, A Multiple-Scattering Microfacet Model for Real-Time
+// Image-based Lighting, 2019), so that white things lose nothing. What hides the sky is taken to be as bright as the place itself: of a
+// matt one, light and colour make a geometric series.
+vec3 shade_around(vec3 n, vec3 bent, vec3 mirrored, BurinSky sky, Paint paint) {
+    vec3 f0 = mix(vec3(0.04), paint.albedo, paint.metal);
+    vec2 share = mirrored_share(clamp(dot(n, to_eye), 0.0, 1.0), paint.rough);
+    vec3 once = f0 * share.x + share.y;
+    float rest = 1.0 - share.x - share.y;
+    vec3 mean_f = f0 + (vec3(1.0) - f0) / 21.0;
+    vec3 again = rest * once * mean_f / (vec3(1.0) - mean_f * rest);
+    vec3 matt = paint.albedo * (1.0 - paint.metal) * (vec3(1.0) - once - again);
+    float open = sky.open * paint.open;
+    vec3 gathered = gathered_radiance(bent) * open / (vec3(1.0) - (1.0 - open) * paint.albedo);
+    vec3 reflected = mix(paint.albedo * gathered, mirrored_radiance(mirrored, paint.rough) * mix(1.0, paint.open, paint.rough), sky.clear);
+    return once * reflected + (again + matt) * gathered;
+}
+#endif
+
+// The sky is brighter than the ground; a metal mirrors what a matt surface gathers.
+vec3 shade_surround(vec3 n, Paint paint) {
+    vec3 f0 = mix(vec3(0.04), paint.albedo, paint.metal);
+    vec3 fresnel = f0 + (vec3(1.0) - f0) * pow(1.0 - max(dot(to_eye, normalize(to_eye + light)), 0.0), 5.0);
+    float sky = 0.5 + 0.5 * n.y;
+    vec3 around = mix(paint.albedo * (1.0 - paint.metal), fresnel * mix(1.0, 0.75, paint.rough), mix(0.1, 1.0, paint.metal));
+    return around * ambient * paint.open * mix(0.35, 1.0, sky);
+}
+
+vec3 painted_color(BurinFacet facet, Paint paint) {
+    vec3 leaning = burin_add_slopes(facet.normal, rest_slopes);
+    vec3 n = normalize(transpose(to_pattern) * burin_bend_normal(bend, bend_moved, bend_drop, leaning));
+    vec3 color = shade_lamp(n, paint, facet.lit) + paint.glow;
+#ifdef BURIN_ENVIRONMENT
+    vec3 mirrored = reflect(-to_eye, n);
+    float blur = clamp(paint.rough * paint.rough, 0.01, 1.0);
+    BurinSky sky = burin_sky(facet.nook, leaning, normalize(to_pattern * mirrored), blur);
+    color += shade_around(n, world_of(sky.bent), mirrored, sky, paint);
+#else
+    color += shade_surround(n, paint);
+#endif
+    return clamp(color, 0.0, 1.0);
+}
+
+vec3 burin_facet_color(BurinFacet facet) {
+    return painted_color(facet, paint_of(facet.material, look_at(facet.normal, facet.drop)));
+}
+
+// The ground of a pixel is looked up once.
+Paint ground_paint;
+
+vec3 ground_color(float drop, float lit) {
+    return painted_color(burin_level_facet(drop, lit), ground_paint);
+}
+
+vec3 burin_shadow_color() {
+    return ground_color(0.0, 0.0);
+}
+
+// Of a mesh without detail.
+vec3 mesh_color(vec3 n) {
+    Look look;
+    look.place = look_start;
+    look.along_x = look_x;
+    look.along_y = look_y;
+    Paint paint = paint_of(0u, look);
+    vec3 color = shade_lamp(n, paint, 1.0) + paint.glow;
+#ifdef BURIN_ENVIRONMENT
+    BurinSky sky;
+    sky.open = 1.0;
+    sky.clear = 1.0;
+    color += shade_around(n, n, reflect(-to_eye, n), sky, paint);
+#else
+    color += shade_surround(n, paint);
+#endif
+    return clamp(color, 0.0, 1.0);
 }

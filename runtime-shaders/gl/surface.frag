@@ -51,6 +51,8 @@ vec4 point_color(BurinRay ray) {
     if (!hit.met) return vec4(0.0);
     BurinSurface surface = burin_surface(hit);
     rest_slopes = fetch_residual(hit.ray.origin + hit.ray.slope * hit.t, uv_along_x, uv_along_y);
+    look_slope = hit.ray.slope;
+    look_origin = found.sheet.moved ? hit.ray.origin : found.place - look_slope * hit.t;
     BurinRay met = hit.ray;
     if (found.sheet.moved) {
         surface.normal = normalize(transpose(found.sheet.turn) * surface.normal);
@@ -59,6 +61,7 @@ vec4 point_color(BurinRay ray) {
         met.origin = found.place - ray.slope * found.drop;
     }
     stand_at(found.place - bend_start, found.drop);
+
     float lit = light_above ? 1.0 : 0.0;
     float before = found.drop - 4.0e-3 * burin_map.depth;
     if (shadows != 0 && light_above && before > 0.0) {
@@ -68,13 +71,21 @@ vec4 point_color(BurinRay ray) {
         BurinSight sight = burin_light_sight(bend, shadow, before, found, bend_start, ray.origin, eye_direction, to_pattern * light);
         if (burin_trace_sight(bend, bend_start, sight).hit.met) lit = 0.0;
     }
-    return vec4(burin_facet_color(surface.normal, surface.material, lit), 1.0);
+    BurinFacet facet;
+    facet.normal = surface.normal;
+    facet.material = surface.material;
+    facet.lit = lit;
+    facet.drop = hit.t;
+    facet.nook = surface.nook;
+    return vec4(burin_facet_color(facet), 1.0);
 }
 
 // Mean of side x side rays over a part of the pixel; along_x and along_y are that part's sides. w: part of them that meet
 // something; the colour is the mean of those.
 vec4 sampled_color(BurinRay ray, vec2 along_x, vec2 along_y, int side) {
     vec4 sum = vec4(0.0);
+    look_x = along_x / float(side);
+    look_y = along_y / float(side);
     for (int k = 0; k < 16; ++k) {
         if (k >= side * side) break;
         vec2 at = (vec2(float(k % side), float(k / side)) + 0.5) / float(side) - 0.5;
@@ -100,8 +111,13 @@ vec4 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
         }
         ivec2 index = burin_cell_at(part_ray.origin - floor(part_ray.origin / burin_map.size) * burin_map.size * float(burin_map.repeats));
         float level = burin_cell(index).level;
+        look_origin = part_ray.origin;
+        look_slope = part_ray.slope;
+        look_x = x;
+        look_y = y;
         rest_slopes = fetch_residual(part_ray.origin + part_ray.slope * level, uv_along_x, uv_along_y);
-        vec3 ground = burin_facet_color(vec3(0.0, 0.0, 1.0), 0u, light_above ? 1.0 : 0.0);
+        ground_paint = paint_of(0u, look_at(vec3(0.0, 0.0, 1.0), level));
+        vec3 ground = ground_color(level, light_above ? 1.0 : 0.0);
         BurinRegion region = burin_region(part_ray, burin_footprint(x, y), light_slope, shadows != 0 && light_above, ground,
                                             level);
         // The eye's straight ray meets the true one half way down; the light's begins on it.
@@ -143,6 +159,11 @@ void main() {
     vec3 n = normalize(world_normal);
     uv_along_x = dFdx(pattern_uv) * pixel_part;
     uv_along_y = dFdy(pattern_uv) * pixel_part;
+    look_start = pattern_uv * burin_map.size;
+    look_x = uv_along_x * burin_map.size;
+    look_y = uv_along_y * burin_map.size;
+    sets_by_pattern[0] = set_by_pattern(texture_uvs.xy);
+    sets_by_pattern[1] = set_by_pattern(texture_uvs.zw);
     if (dot(n, to_eye) < 0.0 && !gl_FrontFacing) n = -n;
 #ifdef BURIN_CORRECT_DEPTH
     gl_FragDepth = gl_FragCoord.z;
@@ -151,7 +172,7 @@ void main() {
     mat3 frame = pattern_frame(n, own);
     float handed = determinant(frame);
     if (has_detail == 0 || abs(handed) <= 1.0e-12 || dot(n, to_eye) <= 1.0e-3) {
-        color = vec4(clamp(shade(n, base_color.rgb, metallic, roughness, 1.0), 0.0, 1.0), 0.0);
+        color = vec4(mesh_color(n), 0.0);
         return;
     }
     to_pattern = inverse(frame);
@@ -167,8 +188,8 @@ void main() {
     BurinFound middle = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction, chart));
     if (middle.hit.met) gl_FragDepth = depth_of(world_position - to_eye * middle.way);
 #endif
-    vec2 along_x = uv_along_x * burin_map.size;
-    vec2 along_y = uv_along_y * burin_map.size;
+    vec2 along_x = look_x;
+    vec2 along_y = look_y;
     if (pixel_filter == FILTER_REGIONS || pixel_filter == FILTER_MARKED) {
         BurinRay straight = ray;
         float drop = 0.0;

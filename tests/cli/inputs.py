@@ -93,6 +93,22 @@ def plane_gltf(materials):
     })
 
 
+def broken_texture_gltf():
+    """A model whose base colour is half a PNG."""
+    document = json.loads(plane_gltf(["brass"]))
+    half = png(8, 8, [[128] * 8] * 8, bits=8)[:50]
+    document["images"] = [{"uri": "data:image/png;base64," + base64.b64encode(half).decode()}]
+    document["textures"] = [{"source": 0}]
+    document["materials"][0]["pbrMetallicRoughness"] = {"baseColorTexture": {"index": 0}}
+    return json.dumps(document)
+
+
+def radiance_hdr():
+    """A sky of 4 x 2 texels, bright above."""
+    return (b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n" + bytes([128, 160, 255, 128]) * 4
+            + bytes([90, 80, 70, 126]) * 4)
+
+
 LETTERS = ("#### #   # ### ", "#    ##  # #  #", "###  # # # #  #", "#    #  ## #  #", "#### #   # ###")
 
 
@@ -137,6 +153,8 @@ def write_inputs(folder):
         "words.png": b"burin reads height maps and this is none\n",
         "two_materials.gltf": plane_gltf(["brass", "slate"]).encode(),
         "one_material.gltf": plane_gltf(["brass"]).encode(),
+        "broken_texture.gltf": broken_texture_gltf().encode(),
+        "sky.hdr": radiance_hdr(),
         "plane.obj": OBJ.encode(),
         "broken.gltf": b'{"asset": {"version": "2.0"}, "scenes": [',
         "no_pattern.gltf": plane_gltf(["brass"]).encode(),

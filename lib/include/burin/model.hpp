@@ -15,6 +15,7 @@
 // files have v up and are turned over on reading.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -122,6 +123,18 @@ struct Primitive {
     std::vector<SurfaceFrame> frames{};  // one per vertex, world space; none where the file has none
     std::vector<float> charts{};         // number of each vertex' chart; none where the file has none
     bool mirrored = false;               // the node's transform turned the triangles over; they are wound anew
+    // Four per vertex, the uv sets 0 and 1; none where all textures of the material lie in the set of `uvs`.
+    std::vector<float> texture_uvs{};
+};
+
+// A texture of glTF's own, as a renderer needs it. Filters and wraps are glTF's numbers, which are OpenGL's.
+struct MaterialTexture {
+    std::shared_ptr<const RgbaImage> image;  // shared by all that show it; null: there is none
+    int tex_coord = 0;                       // 0, 1, or the set of the material's pattern
+    // KHR_texture_transform: (u, v) of the vertices becomes (a u + b v + c, d u + e v + f); here a to f.
+    std::array<float, 6> transform{1, 0, 0, 0, 1, 0};
+    int minification = 9987, magnification = 9729;  // without a sampler: linear with mipmaps
+    int wrap_u = 10497, wrap_v = 10497;             // REPEAT; or 33071 CLAMP_TO_EDGE, 33648 MIRRORED_REPEAT
 };
 
 struct MaterialInfo {
@@ -129,6 +142,12 @@ struct MaterialInfo {
     float base_color[4] = {1, 1, 1, 1};  // linear
     float metallic = 1.0f;
     float roughness = 1.0f;
+    float emissive[3] = {0, 0, 0};  // linear
+    // Textures, where pictures were asked for. Colours of the first and the last are sRGB; roughness is the second's green,
+    // metallic its blue, occlusion the third's red. Occlusion that burin baked from the pattern, for viewers that do not draw it,
+    // is left out.
+    MaterialTexture base_color_texture, metallic_roughness_texture, occlusion_texture, emissive_texture;
+    float occlusion_strength = 1.0f;
     bool double_sided = false;
     bool has_detail = false;  // then the two below hold
     PathDetail detail;
@@ -143,10 +162,18 @@ struct Asset {
         materials;  // those of the document; then glTF's default, when a primitive has none
 };
 
+struct AssetOptions {
+    bool pictures = false;  // decode the images of the materials' own textures too, for drawing
+};
+
+// Largest image of a material's texture that is read.
+inline constexpr std::uint64_t kMaxPictureTexels = 1u << 28;
+
 // Reads glTF or glb. The textures are checked for what reading needs: views, sizes, section lengths; whether
 // their content keeps every rule of the format is validate_glb's business, and unpack_textures is safe on any
 // content. A residual is decoded. Fails as read_model does, and with invalid_input when an extension object does not parse
-// or its residual cannot be read.
-Result<Asset> read_asset(std::span<const std::uint8_t> bytes, const std::string& base_folder = {});
+// or its residual cannot be read. With pictures: also when a texture's image is missing or damaged, and with unsupported when it is
+// neither PNG nor JPEG or lies in a uv set that is neither 0, 1 nor the pattern's. Images that no material shows are not decoded.
+Result<Asset> read_asset(std::span<const std::uint8_t> bytes, const std::string& base_folder = {}, const AssetOptions& options = {});
 
 }  // namespace burin
