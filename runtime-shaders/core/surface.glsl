@@ -21,6 +21,26 @@ int burin_step_facet(BurinElement e, BurinStyle style, float t) {
     return BURIN_FACET_WALL;
 }
 
+// The highest facet over an offset.
+int burin_top_facet(BurinStyle style, float b) {
+    int facet = 0;
+    float highest = -1.0e30f;
+    vec2 last = burin_profile_point(style, 0);
+    for (int i = 1; i < BURIN_MAX_PROFILE_POINTS; ++i) {
+        if (i >= style.count) break;
+        vec2 point = burin_profile_point(style, i);
+        float width = point.x - last.x;
+        float part = abs(width) > 0.0f ? (b - last.x) / width : -1.0f;
+        float height = mix(last.y, point.y, part);
+        if (part >= 0.0f && part <= 1.0f && height > highest) {
+            highest = height;
+            facet = i - 1;
+        }
+        last = point;
+    }
+    return facet;
+}
+
 vec3 burin_wall_normal(vec2 wall, vec2 slope) {
     vec2 n = length(wall) > 0.0f ? wall : -slope;
     if (dot(n, slope) > 0.0f) n = -n;
@@ -49,14 +69,13 @@ BurinSurface burin_surface(BurinHit hit) {
     BurinStyle style = burin_style(e.style);
     s.material = style.material;
     if (s.facet == BURIN_FACET_STEP) s.facet = burin_step_facet(e, style, hit.t);
-    if (hit.mark.facet < 0) {
-        return burin_wall(s, hit);
-    }
+    if (hit.mark.facet < 0 && hit.mark.facet != BURIN_FACET_TOP) return burin_wall(s, hit);
     BurinPiece piece = burin_whole(e, hit.t, hit.t);
     if (hit.mark.part != BURIN_PART_MAIN)
         piece = burin_part(e, burin_end(e, true), burin_end(e, false), hit.ray, piece, hit.mark.part, hit.mark.side);
     piece = burin_formula(e, piece, hit.mark.part);
     BurinSection section = burin_section(e, style, piece, hit.ray, hit.t);
+    if (s.facet == BURIN_FACET_TOP) s.facet = burin_top_facet(style, section.q.x);
     vec2 edge = burin_profile_point(style, s.facet + 1) - burin_profile_point(style, s.facet);
     vec2 rates = section.scale_rates / vec2(section.width, section.height);
     vec2 along_b = section.gradient * (1.0f / (section.width * style.reach)) - section.tangent * (section.q.x * rates.x);

@@ -41,7 +41,8 @@ void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ra
     float entry = inside ? add_from : next.add;
     if (entry >= min(pass.add, pass.ground)) return;
     pass.add = entry;
-    mark.facet = inside ? (add_from > pass.from ? BURIN_FACET_WALL : BURIN_FACET_KEEP) : next.add_facet;
+    int before = pass.from <= BURIN_FILM * burin_map.depth ? BURIN_FACET_TOP : BURIN_FACET_KEEP;
+    mark.facet = inside ? (add_from > pass.from ? BURIN_FACET_WALL : before) : next.add_facet;
     mark.wall = piece.lo_wall;
     pass.add_mark = mark;
 }

@@ -124,6 +124,7 @@ struct BurinMark {
 #define BURIN_FACET_GROUND -1
 #define BURIN_FACET_WALL -2
 #define BURIN_FACET_STEP -3  // somewhere on the path line of a step; burin_surface finds the facet
+#define BURIN_FACET_TOP -5   // what lies flush with the object surface, where the ray begins; burin_surface finds the facet
 #define BURIN_FACET_KEEP -4  // what was known before still holds
 
 struct BurinHit {

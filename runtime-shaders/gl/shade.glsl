@@ -8,6 +8,7 @@ uniform float ambient;
 vec3 to_eye;
 mat3 to_pattern;     // world directions to pattern space
 vec2 rest_slopes;    // of the residual
+bool light_above;    // the object surface faces the light; else nothing of it is lit
 
 // Lambert and GGX with Smith's shadowing, for one light; colours linear.
 vec3 shade_lamp(vec3 n, Paint paint, float lit) {
@@ -61,7 +62,7 @@ vec3 shade_surround(vec3 n, Paint paint) {
 vec3 painted_color(BurinFacet facet, Paint paint) {
     vec3 leaning = burin_add_slopes(facet.normal, rest_slopes);
     vec3 n = normalize(transpose(to_pattern) * burin_bend_normal(bend, bend_moved, bend_drop, leaning));
-    vec3 color = shade_lamp(n, paint, facet.lit) + paint.glow;
+    vec3 color = shade_lamp(n, paint, light_above ? facet.lit : 0.0) + paint.glow;
 #ifdef BURIN_ENVIRONMENT
     vec3 mirrored = reflect(-to_eye, n);
     float blur = clamp(paint.rough * paint.rough, 0.01, 1.0);

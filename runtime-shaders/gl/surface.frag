@@ -15,7 +15,6 @@ layout(location = 0) out vec4 color;
 vec2 uv_along_x;
 vec2 uv_along_y;
 vec2 light_slope;   // metres that the light moves over the plane per metre of fall
-bool light_above;
 int chart;
 vec3 eye_direction;  // in the local frame, of unit length in space
 
@@ -44,40 +43,58 @@ bool meets_border(BurinRay ray, vec2 along_x, vec2 along_y) {
 #endif
 }
 
-// What one ray meets, shadow included; w: 0 where it leaves the object beside its outline.
-vec4 point_color(BurinRay ray) {
-    BurinFound found = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction, chart));
+// What was met, as it is shaded but for shadows.
+BurinFacet facet_of(BurinRay ray, BurinFound found) {
     BurinHit hit = found.hit;
-    if (!hit.met) return vec4(0.0);
     BurinSurface surface = burin_surface(hit);
     rest_slopes = fetch_residual(hit.ray.origin + hit.ray.slope * hit.t, uv_along_x, uv_along_y);
     look_slope = hit.ray.slope;
     look_origin = found.sheet.moved ? hit.ray.origin : found.place - look_slope * hit.t;
-    BurinRay met = hit.ray;
-    if (found.sheet.moved) {
-        surface.normal = normalize(transpose(found.sheet.turn) * surface.normal);
-        rest_slopes = (transpose(found.sheet.turn) * vec3(rest_slopes, 0.0)).xy;
-        met.slope = ray.slope;
-        met.origin = found.place - ray.slope * found.drop;
-    }
-    stand_at(found.place - bend_start, found.drop);
-
-    float lit = light_above ? 1.0 : 0.0;
-    float before = found.drop - 4.0e-3 * burin_map.depth;
-    if (shadows != 0 && light_above && before > 0.0) {
-        BurinRay shadow;
-        shadow.slope = light_slope;
-        shadow.origin = met.origin + (met.slope - light_slope) * found.drop;
-        BurinSight sight = burin_light_sight(bend, shadow, before, found, bend_start, ray.origin, eye_direction, to_pattern * light);
-        if (burin_trace_sight(bend, bend_start, sight).hit.met) lit = 0.0;
-    }
     BurinFacet facet;
     facet.normal = surface.normal;
     facet.material = surface.material;
-    facet.lit = lit;
+    facet.lit = 1.0;
     facet.drop = hit.t;
     facet.nook = surface.nook;
-    return vec4(burin_facet_color(facet), 1.0);
+    if (found.sheet.moved) {
+        // Light and eye are those of the chart that the ray entered.
+        facet.normal = normalize(transpose(found.sheet.turn) * facet.normal);
+        rest_slopes = (transpose(found.sheet.turn) * vec3(rest_slopes, 0.0)).xy;
+    }
+    stand_at(found.place - bend_start, found.drop);
+    return facet;
+}
+
+// The way to the light from what was met, from `before` on.
+BurinSight way_to_light(BurinRay ray, BurinFound found, float before) {
+    BurinRay shadow;
+    shadow.slope = light_slope;
+    // In the tile that was met, where numbers are small.
+    vec2 place = found.sheet.moved ? found.place : found.hit.ray.origin + found.hit.ray.slope * found.drop;
+    shadow.origin = place - light_slope * found.drop;
+    return burin_light_sight(bend, shadow, before, found, bend_start, ray.origin, eye_direction, to_pattern * light);
+}
+
+// What one ray meets, shadow included; w: 0 where it leaves the object beside its outline. The eye's way and the light's are two
+// turns of a loop, since drivers copy the whole decoder to every place that calls it.
+vec4 point_color(BurinRay ray) {
+    BurinSight sight = burin_eye_sight(bend, bend_start, ray, eye_direction, chart);
+    BurinFacet facet;
+    bool met = false;
+    for (int way = 0; way < 2; ++way) {
+        BurinFound found = burin_trace_sight(bend, bend_start, sight);
+        if (way == 1) {
+            if (found.hit.met) facet.lit = 0.0;
+            break;
+        }
+        met = found.hit.met;
+        if (!met) break;
+        facet = facet_of(ray, found);
+        float before = found.drop - 4.0e-3 * burin_map.depth;
+        if (shadows == 0 || !light_above || before <= 0.0) break;
+        sight = way_to_light(ray, found, before);
+    }
+    return met ? vec4(burin_facet_color(facet), 1.0) : vec4(0.0);
 }
 
 // Mean of side x side rays over a part of the pixel; along_x and along_y are that part's sides. w: part of them that meet
@@ -96,54 +113,57 @@ vec4 sampled_color(BurinRay ray, vec2 along_x, vec2 along_y, int side) {
     return vec4(sum.rgb / max(sum.w, 1.0), sum.w / float(side * side));
 }
 
-// The whole pixel at once where its features do not meet; else its quarters; and those where they do, by rays.
-vec4 filtered_color(BurinRay ray, vec2 along_x, vec2 along_y) {
-    vec3 sum = vec3(0.0);
-    int marks = 0;
-    for (int part = 0; part <= 4; ++part) {
-        BurinRay part_ray = ray;
-        vec2 x = along_x;
-        vec2 y = along_y;
-        if (part > 0) {
-            x = along_x * 0.5;
-            y = along_y * 0.5;
-            part_ray.origin = ray.origin + x * (float((part - 1) % 2) - 0.5) + y * (float((part - 1) / 2) - 0.5);
-        }
-        ivec2 index = burin_cell_at(part_ray.origin - floor(part_ray.origin / burin_map.size) * burin_map.size * float(burin_map.repeats));
-        float level = burin_cell(index).level;
-        look_origin = part_ray.origin;
-        look_slope = part_ray.slope;
-        look_x = x;
-        look_y = y;
-        rest_slopes = fetch_residual(part_ray.origin + part_ray.slope * level, uv_along_x, uv_along_y);
-        ground_paint = paint_of(0u, look_at(vec3(0.0, 0.0, 1.0), level));
-        vec3 ground = ground_color(level, light_above ? 1.0 : 0.0);
-        BurinRegion region = burin_region(part_ray, burin_footprint(x, y), light_slope, shadows != 0 && light_above, ground,
-                                            level);
-        // The eye's straight ray meets the true one half way down; the light's begins on it.
-        bool bends = burin_bends(bend, ray.slope * 0.5) || (shadows != 0 && light_above && burin_bends(bend, light_slope));
-        if (region.special == 0u && (bends || meets_border(part_ray, x, y))) region.special = 1u;
-        vec3 found = ground + region.color;
-        // From a pixel that spans many features to one that spans too many: the prefilter takes over by degrees.
-        float far = smoothstep(0.4, 0.9, region.fullness);
-        if (far > 0.0) {
-            vec2 place = part_ray.origin + part_ray.slope * level;
-            vec3 beyond = ground + far_color(place, ray.slope, light_slope, shadows != 0 && light_above, ground, uv_along_x, uv_along_y);
-            if (far >= 1.0 && part == 0) return vec4(beyond, 0.0);
-            found = mix(found, beyond, far);
-        }
-        if (part == 0) {
-            if (region.special == 0u) return vec4(found, 0.0);
-            continue;
-        }
-        if (region.special != 0u) {
-            found = vec3(0.0);
-            if (pixel_filter == FILTER_MARKED) marks += 1 << (part - 1);
-            else found = sampled_color(part_ray, x, y, max(side / 2, 1)).rgb;
-        }
-        sum += found * 0.25;
-    }
-    return vec4(sum, float(marks));
+// A pixel, or a quarter of one.
+struct Part {
+    BurinRay ray;
+    vec2 along_x;
+    vec2 along_y;
+};
+
+// Part 0 is the whole, 1 to 4 its quarters.
+Part part_of(BurinRay ray, vec2 along_x, vec2 along_y, int index) {
+    Part part;
+    part.ray = ray;
+    part.along_x = along_x;
+    part.along_y = along_y;
+    if (index == 0) return part;
+    part.along_x = along_x * 0.5;
+    part.along_y = along_y * 0.5;
+    part.ray.origin = ray.origin + part.along_x * (float((index - 1) % 2) - 0.5) + part.along_y * (float((index - 1) / 2) - 0.5);
+    return part;
+}
+
+// What areas say of a part.
+struct Areas {
+    vec3 color;
+    bool special;  // and that rays should be asked
+    bool far;      // it spans so many features that nothing else need be asked
+};
+
+Areas areas_of(Part part) {
+    vec2 tile = floor(part.ray.origin / burin_map.size) * burin_map.size * float(burin_map.repeats);
+    float level = burin_cell(burin_cell_at(part.ray.origin - tile)).level;
+    vec2 place = part.ray.origin + part.ray.slope * level;
+    bool shadowed = shadows != 0 && light_above;
+    look_origin = part.ray.origin;
+    look_slope = part.ray.slope;
+    look_x = part.along_x;
+    look_y = part.along_y;
+    rest_slopes = fetch_residual(place, uv_along_x, uv_along_y);
+    ground_paint = paint_of(0u, look_at(vec3(0.0, 0.0, 1.0), level));
+    vec3 ground = ground_color(level, 1.0);
+    BurinRegion region = burin_region(part.ray, burin_footprint(part.along_x, part.along_y), light_slope, shadowed, ground, level);
+    Areas areas;
+    areas.color = ground + region.color;
+    // The eye's straight ray meets the true one half way down; the light's begins on it.
+    bool bends = burin_bends(bend, part.ray.slope * 0.5) || (shadowed && burin_bends(bend, light_slope));
+    areas.special = region.special != 0u || bends || meets_border(part.ray, part.along_x, part.along_y);
+    // From a pixel that spans many features to one that spans too many: the prefilter takes over by degrees.
+    float far = smoothstep(0.4, 0.9, region.fullness);
+    areas.far = far >= 1.0;
+    if (far > 0.0)
+        areas.color = mix(areas.color, ground + far_color(place, part.ray.slope, light_slope, shadowed, ground, uv_along_x, uv_along_y), far);
+    return areas;
 }
 
 bool is_wanted() {
@@ -190,22 +210,43 @@ void main() {
 #endif
     vec2 along_x = look_x;
     vec2 along_y = look_y;
-    if (pixel_filter == FILTER_REGIONS || pixel_filter == FILTER_MARKED) {
-        BurinRay straight = ray;
-        float drop = 0.0;
-        if (burin_straighten(bend, eye_direction, straight, drop)) {
-            stand_at(straight.origin + straight.slope * drop - bend_start, drop);
-            color = filtered_color(straight, along_x, along_y);
-            return;
-        }
-        // Beside the outline of a round surface nothing straight stands in for the ray.
-        if (pixel_filter == FILTER_MARKED) {
-            color = vec4(0.0, 0.0, 0.0, 15.0);
-            return;
-        }
+    BurinRay straight = ray;
+    float drop = 0.0;
+    bool filtered = pixel_filter == FILTER_REGIONS || pixel_filter == FILTER_MARKED;
+    bool areas = filtered && burin_straighten(bend, eye_direction, straight, drop);
+    // Beside the outline of a round surface nothing straight stands in for the ray.
+    if (pixel_filter == FILTER_MARKED && !areas) {
+        color = vec4(0.0, 0.0, 0.0, 15.0);
+        return;
     }
     if (pixel_filter == FILTER_QUARTERS) ray.origin += along_x * ray_place.x + along_y * ray_place.y;
-    vec4 seen = sampled_color(ray, along_x, along_y, pixel_filter == FILTER_QUARTERS ? 1 : side);
-    if (seen.w == 0.0) discard;
-    color = vec4(seen.rgb, 0.0);
+    // The whole pixel at once where its features do not meet; else its quarters; and those where they do, by rays.
+    vec3 sum = vec3(0.0);
+    float parts = 0.0;
+    int marks = 0;
+    for (int i = 0; i <= 4; ++i) {
+        vec4 found = vec4(0.0, 0.0, 0.0, 1.0);
+        bool rays = !areas;
+        if (areas) {
+            stand_at(straight.origin + straight.slope * drop - bend_start, drop);
+            Areas said = areas_of(part_of(straight, along_x, along_y, i));
+            bool whole = i == 0 && (said.far || !said.special);
+            if (i == 0 && !whole) continue;
+            rays = !whole && said.special;
+            found.rgb = said.color;
+        }
+        if (rays && pixel_filter == FILTER_MARKED) {
+            marks += 1 << (i - 1);
+            found = vec4(0.0, 0.0, 0.0, 1.0);
+        } else if (rays) {
+            Part part = part_of(ray, along_x, along_y, i);
+            int count = pixel_filter == FILTER_QUARTERS ? 1 : (areas ? max(side / 2, 1) : side);
+            found = sampled_color(part.ray, part.along_x, part.along_y, count);
+        }
+        sum += found.rgb * (found.w > 0.0 ? 1.0 : 0.0);
+        parts += found.w > 0.0 ? 1.0 : 0.0;
+        if (i == 0) break;
+    }
+    if (parts == 0.0) discard;
+    color = vec4(sum / parts, float(marks));
 }

@@ -108,6 +108,18 @@ inline Pattern crossing_pattern() {
     return p;
 }
 
+// Tops in the object surface itself, where rays begin: of lines, of a curve, of an end, tapering.
+inline Pattern flush_pattern() {
+    Pattern p = base(kRise);
+    p.profiles = {ridge(0.05, kRise), ridge(0.03, kRise), lipped(0.06, 0.010, kRise)};
+    p.paths = {polyline({{0.1, 0.3}, {0.9, 0.35}}, 0), polyline({{0.3, 0.1}, {0.35, 0.9}}, 1), polyline({{0.1, 0.75}, {0.9, 0.7}}, 2)};
+    Path bow;
+    bow.profile = 1;
+    bow.elements = {make_arc({0.6, 0.5}, {0.75, 0.4}, {0.85, 0.55})};
+    p.paths.push_back(bow);
+    return p;
+}
+
 inline Pattern tee_pattern() {
     Pattern p = base(kRise);
     p.profiles = {groove(0.03, 0.010), groove(0.02, 0.006), vee(0.03, 0.011), ridge(0.02, 0.005)};
@@ -263,6 +275,7 @@ namespace burin::testing {
 inline std::vector<NamedPattern> authored_patterns() {
     return {{"crossing", crossing_pattern()},
             {"tee", tee_pattern()},
+            {"flush", flush_pattern()},
             {"mitre", corner_pattern(JoinKind::mitre)},
             {"round", corner_pattern(JoinKind::round)},
             {"bevel", corner_pattern(JoinKind::bevel)},
