@@ -509,12 +509,7 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     auto context = gl::open_context(options.backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
-    int kinds = 0;
-    for (const auto& material : asset.materials)
-        if (material.has_detail) kinds |= gl::function_kinds(material.textures);
-    auto program = gl::Program::build(
-        gl, {options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface, kinds, options.environment.has_value(),
-             gl::texture_kinds(asset)});
+    auto program = gl::Program::build(gl, program_for(asset, options));
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
     if (!target) return target.error();

@@ -45,14 +45,17 @@ struct TruthHit {
 };
 
 TruthHit ask(const Truth& truth, const PreparedPattern& p, PatternRay ray, Vec2 shift) {
+    // From somewhat above: what lies flush with the object surface, as rounding leaves it, is met and not begun in.
+    const double above = 1e-4 * p.detail.depth;
     Ray r;
-    r.origin[0] = double(ray.origin[0]) + shift.x;
-    r.origin[1] = double(ray.origin[1]) + shift.y;
-    r.origin[2] = p.detail.base_offset;
+    r.origin[0] = double(ray.origin[0]) + shift.x - double(ray.slope[0]) * above;
+    r.origin[1] = double(ray.origin[1]) + shift.y - double(ray.slope[1]) * above;
+    r.origin[2] = p.detail.base_offset + above;
     r.direction[0] = double(ray.slope[0]);
     r.direction[1] = double(ray.slope[1]);
     r.direction[2] = -1.0;
-    const RayHit hit = truth.trace_ray(r);
+    RayHit hit = truth.trace_ray(r);
+    hit.t = std::max(hit.t - above, 0.0);
     return {hit, hit.t};
 }
 

@@ -211,7 +211,7 @@ TEST_P(CutBodies, RaysGoOnBeyondBorders) {
     EXPECT_LT(with.at(0.5), 0.002);
     EXPECT_LT(with.at(0.95), 0.02);
     EXPECT_LT(with.lost_share(), 0.01);
-    EXPECT_GT(without.at(0.95) + without.lost_share(), 3 * (with.at(0.95) + with.lost_share()));
+    EXPECT_GT(without.at(0.99) + without.lost_share(), 3 * (with.at(0.99) + with.lost_share()));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CutBodies, ::testing::Range(0, 6));
