@@ -54,7 +54,7 @@ constexpr IssueKind kKinds[] = {
     {2043, kError, "a number of the chart table's description is out of range"},
     {2044, kError, "the chart table is too small for its borders and cells"},
     {2045, kError, "a list of the chart table leads out of it"},
-    {2046, kError, "a border of the chart table has a number that is not finite"},
+    {2046, kError, "a border of the chart table has a number that is not finite or out of its range"},
     {3001, kError, "list exceeds the list section"},
     {3002, kError, "empty list with a first reference"},
     {3003, kError, "empty list with flag STEP"},

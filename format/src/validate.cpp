@@ -127,12 +127,16 @@ void check_residual(const json& document, const json& extension, const PathDetai
 
 // Lists stay inside the table and name borders that are there; borders are finite.
 void check_charts(const ChartLayout& charts, const std::vector<std::uint32_t>& words, Reporter& reporter) {
+    constexpr std::size_t kScale = 12, kAngle = 13;
     for (std::size_t i = 0; i < static_cast<std::size_t>(charts.borders); ++i)
-        for (std::size_t k = 0; k < 14; ++k)
-            if (!std::isfinite(std::bit_cast<float>(words[16 * i + k]))) {
-                reporter.report(2046, "number " + std::to_string(k) + " of border " + std::to_string(i) + " is not finite", "/charts");
-                break;
-            }
+        for (std::size_t k = 0; k < 14; ++k) {
+            const float number = std::bit_cast<float>(words[16 * i + k]);
+            const bool good = std::isfinite(number) && (k != kScale || number > 0.0f) && (k != kAngle || std::abs(number) <= 2.9f);
+            if (good) continue;
+            reporter.report(2046, "number " + std::to_string(k) + " of border " + std::to_string(i) + " is " + number_text(double(number)) +
+                                      ", not finite or out of its range", "/charts");
+            break;
+        }
     const std::size_t cells = static_cast<std::size_t>(charts.columns) * static_cast<std::size_t>(charts.rows);
     const std::size_t references = 4 * charts.first_reference(), room = words.size() - references;
     for (std::size_t i = 0; i < cells; ++i) {
@@ -209,7 +213,10 @@ void check_chart_numbers(const json& document, const json& primitive, bool chart
     const json* accessor = accessor_of(document, primitive, kChartAttribute);
     const auto attributes = primitive.find("attributes");
     const bool named = attributes != primitive.end() && attributes->is_object() && attributes->contains(kChartAttribute);
-    if (!named && !charted) return;
+    std::int64_t mode = 4;
+    if (primitive.contains("mode")) read_integer(primitive["mode"], 0, 6, mode);
+    const bool lines = mode < 4;  // and points have no charts
+    if (!named && (!charted || lines)) return;
     const json* positions = accessor_of(document, primitive, "POSITION");
     std::int64_t type = 0;
     const bool right = accessor != nullptr && positions != nullptr && accessor->value("type", json()) == "SCALAR" &&
@@ -297,6 +304,13 @@ void validate_glb(std::span<const std::uint8_t> bytes, const IssueSink& sink,
     const std::optional<Container> container = read_container(bytes, reporter);
     if (container) check_document(*container, options, reporter);
     reporter.close();
+}
+
+bool validate_charts(const ChartLayout& charts, const std::vector<std::uint32_t>& words, const IssueSink& sink) {
+    Reporter reporter(sink, ValidateOptions{}.max_issues_per_number);
+    check_charts(charts, words, reporter);
+    reporter.close();
+    return reporter.errors() == 0;
 }
 
 bool validate_textures(const PackedTextures& textures, const PathDetail& detail, const IssueSink& sink,

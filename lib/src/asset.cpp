@@ -49,6 +49,7 @@ void transform_vertices(const Matrix& m, Primitive& primitive) {
                 (*vector)[r] = static_cast<float>(m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2]);
         }
     primitive.mirrored = sign < 0.0;
+    primitive.scale = static_cast<float>(std::cbrt(std::max(std::abs(determinant(m)), 1e-30)));
     // A mirror turns the faces over; their order keeps them counter-clockwise.
     if (sign < 0.0)
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include <burin/format/validate.hpp>
+
 namespace burin {
 namespace {
 
@@ -75,6 +77,11 @@ Status read_charts(const ModelData& model, const std::string& where, MaterialInf
     const auto texels = static_cast<std::uint64_t>(charts.width) * static_cast<std::uint64_t>(charts.height);
     Result<std::vector<std::uint32_t>> words = read_words(model, charts.view, 4 * texels, where + ".charts");
     if (!words.ok()) return words.error();
+    std::string finding;
+    const bool right = validate_charts(charts, *words, [&](const Issue& issue) {
+        if (finding.empty() && issue.severity == Severity::error) finding = issue.message;
+    });
+    if (!right) return model_error(where + ".charts: " + finding);
     info.charts = std::move(*words);
     return Done{};
 }

@@ -23,7 +23,8 @@ Stretch stretch_of(const ChartBorder& border, double depth) {
     const double lean = std::tan(0.5 * std::abs(border.angle)) / border.scale;
     // Rounding of what the shader does with it.
     const double rounding = 1e-3 * length(border.end - border.begin);
-    return {border.begin, border.end, depth * lean + rounding};
+    // Its corners lie farther off than its sides.
+    return {border.begin, border.end, 1.5 * depth * lean + rounding};
 }
 
 ChartLayout lay_out(const std::vector<Stretch>& all) {

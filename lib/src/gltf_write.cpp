@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <optional>
 
 #include <burin/charts.hpp>
@@ -332,6 +333,17 @@ void GlbWriter::add_frames(std::size_t material, int tex_coord) {
         }
 }
 
+// The least scale at which a node shows a mesh; drops are metres of the world.
+double least_scale(const ModelData& model) {
+    double least = 1e30;
+    for (const PlacedMesh& placed : placed_meshes(model)) {
+        const Matrix& m = placed.transform;
+        const double volume = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);
+        if (volume != 0.0) least = std::min(least, std::cbrt(std::abs(volume)));
+    }
+    return least < 1e30 ? least : 1.0;
+}
+
 void GlbWriter::add_numbers(Json& primitive, const char* attribute, const std::vector<std::uint32_t>& values) {
     constexpr int kFloat = 5126, kArrayBuffer = 34962;
     const std::size_t accessor = places_.take("accessors");
@@ -373,7 +385,10 @@ Status GlbWriter::add_charts(std::size_t material, PathDetail& detail) {
         return Error{ErrorCode::limit_exceeded, "the texture coordinates are cut along " + std::to_string(borders.size() / 2) +
                                                     " edges of the mesh, at most " + std::to_string(BURIN_MAX_BORDERS / 2) +
                                                     " are supported; weld vertices that share position and uv"};
-    ChartTable table = pack_charts(borders, detail.depth);
+    ChartTable table = pack_charts(borders, detail.depth / least_scale(model_));
+    if (table.layout.height > BURIN_MAX_TEXTURE_SIDE)
+        return Error{ErrorCode::limit_exceeded, "the table of the edges along which the texture coordinates are cut takes " +
+                                                    std::to_string(table.layout.height) + " rows of 4096 texels, at most 4096 are supported"};
     detail.charts = table.layout;
     detail.charts.view = static_cast<int>(add_words(table.words, "path detail, charts"));
     for (const auto& [primitive, values] : numbers) add_numbers(*primitive, kChartAttribute, values);

@@ -7,7 +7,9 @@
 
 // Borders that one ray may pass.
 #define BURIN_MAX_HOPS 6
-#define BURIN_MAX_CHART_STEPS 64
+// Cells of the table that one ray may pass, and that a neighbourhood may have.
+#define BURIN_MAX_CHART_STEPS 512
+#define BURIN_MAX_CHART_CELLS_NEAR 64
 // How far beyond a border, in its lengths, a ray may begin that has not passed it, and how far beside it it may pass.
 #define BURIN_BORDER_SLACK 1.0e-3f
 #define BURIN_BORDER_SIDE 1.0e-4f
@@ -50,6 +52,12 @@ vec3 burin_on_sheet(BurinSheet sheet, vec3 p) {
     return sheet.turn * p + sheet.shift;
 }
 
+// A normal of the sheet, z up, in the space that the ray began in. Drops, which `turn` is for, count downwards.
+vec3 burin_off_sheet(BurinSheet sheet, vec3 normal) {
+    vec3 down = transpose(sheet.turn) * vec3(normal.x, normal.y, -normal.z);
+    return normalize(vec3(down.x, down.y, -down.z));
+}
+
 #if BURIN_CHARTS != 0
 
 vec4 burin_chart_numbers(int texel) {
@@ -69,7 +77,8 @@ BurinBorder burin_border(int index) {
     border.there = vec2(beyond.x, beyond.y);
     border.across = vec2(beyond.z, beyond.w);
     border.map = mat2(rows.x, rows.z, rows.y, rows.w);
-    border.scale = uintBitsToFloat(last.x);
+    border.scale = uintBitsToFloat(last.x) * burin_charts.scale;
+    border.across = border.across * (1.0f / burin_charts.scale);
     border.angle = uintBitsToFloat(last.y);
     border.from = int(last.z);
     border.to = int(last.w);
@@ -152,7 +161,7 @@ bool burin_near_border(int chart, vec2 middle, float distance) {
     ivec2 high = burin_chart_cell(middle + vec2(distance, distance));
     int columns = high.x - low.x + 1;
     int count = columns * (high.y - low.y + 1);
-    if (count > BURIN_MAX_CHART_STEPS) return true;
+    if (count > BURIN_MAX_CHART_CELLS_NEAR) return true;
     for (int i = 0; i < count; ++i) {
         ivec2 at = ivec2(low.x + i % columns, low.y + i / columns);
         if (!burin_has_chart_cell(at)) continue;
@@ -202,8 +211,9 @@ struct BurinPassage {
 float burin_whole_way(BurinSheet sheet, vec3 a, vec3 b) {
     vec3 from = burin_on_sheet(sheet, a);
     float fall = burin_on_sheet(sheet, b).z - from.z;
-    if (abs(fall) < 1.0e-9f * burin_map.depth) return 1.0f;
-    return clamp(((fall > 0.0f ? burin_map.depth : 0.0f) - from.z) / fall, 0.0f, 1.0e3f);
+    if (abs(fall) < 1.0e-9f * burin_map.depth) return 1.0e3f;
+    // Beyond the lowest point, so that rounding leaves no gap above it.
+    return clamp(((fall > 0.0f ? 1.01f * burin_map.depth : 0.0f) - from.z) / fall, 0.0f, 1.0e3f);
 }
 
 // Along `chord`, whose ends are a and b in the space that the ray began in; b is above a where the way leads outward. Asks until

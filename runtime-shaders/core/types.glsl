@@ -37,6 +37,7 @@ struct BurinCharts {
     vec2 origin;  // of its grid, metres
     vec2 cell;
     ivec2 cells;  // (0, 0): no borders
+    float scale;  // metres of the world per metre of the mesh
     int first_cell;
     int first_reference;
 };

@@ -96,6 +96,7 @@ Core make_core(const PackedTextures& textures, const PathDetail& detail, const s
     const ChartLayout& layout = detail.charts;
     core.burin_charts.origin = vec2(float(layout.origin[0]), float(layout.origin[1]));
     core.burin_charts.cell = vec2(float(layout.cell[0]), float(layout.cell[1]));
+    core.burin_charts.scale = 1.0f;
     core.burin_charts.cells = charts != nullptr ? ivec2(layout.columns, layout.rows) : ivec2(0);
     core.burin_charts.first_cell = int(layout.first_cell());
     core.burin_charts.first_reference = int(layout.first_reference());
@@ -151,9 +152,8 @@ SurfaceHit Decoder::trace_surface(const SurfacePlace& place, const std::array<do
     SurfaceHit hit;
     static_cast<DecodedHit&>(hit) = describe(core, found.hit);
     hit.way = double(found.way);
-    // The normal in the space that the ray began in.
-    const glm::vec3 normal = glm::transpose(found.sheet.turn) * glm::vec3(float(hit.normal[0]), float(hit.normal[1]), float(hit.normal[2]));
-    for (int i = 0; i < 3; ++i) hit.normal[i] = double(normal[i] / std::max(glm::length(normal), 1e-12f));
+    const glm::vec3 normal = core.burin_off_sheet(found.sheet, glm::vec3(float(hit.normal[0]), float(hit.normal[1]), float(hit.normal[2])));
+    for (int i = 0; i < 3; ++i) hit.normal[i] = double(normal[i]);
     return hit;
 }
 

@@ -64,7 +64,7 @@ struct SurfaceHit : DecodedHit {
 // Every member is const and safe to call from several threads.
 class Decoder {
   public:
-    // `charts`: the table of detail.charts, over whose borders trace_surface goes on; null: there is none.
+    // `charts`: the table of detail.charts, of a mesh in metres, over whose borders trace_surface goes on; null: there is none.
     Decoder(const PackedTextures& textures, const PathDetail& detail, const std::vector<std::uint32_t>* charts = nullptr);
 
     // The ray that passes the object surface at `origin` and goes `slope` metres over the plane per metre of

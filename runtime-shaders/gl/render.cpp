@@ -318,6 +318,7 @@ void draw_pass(const gl::Functions& gl, const gl::Program& program, const Asset&
         program.set("has_detail", material.has_detail ? 1 : 0);
         scene.looks[index]->bind(program);
         program.set("mirrored", asset.primitives[i].mirrored ? 1 : 0);
+        program.set("burin_charts.scale", asset.primitives[i].scale);
         // A mesh seen from behind shows nothing unless its material says so.
         if (material.double_sided)
             gl.Disable(GL_CULL_FACE);

@@ -58,8 +58,8 @@ BurinFacet facet_of(BurinRay ray, BurinFound found) {
     facet.nook = surface.nook;
     if (found.sheet.moved) {
         // Light and eye are those of the chart that the ray entered.
-        facet.normal = normalize(transpose(found.sheet.turn) * facet.normal);
-        rest_slopes = (transpose(found.sheet.turn) * vec3(rest_slopes, 0.0)).xy;
+        facet.normal = burin_off_sheet(found.sheet, burin_add_slopes(facet.normal, rest_slopes));
+        rest_slopes = vec2(0.0);
     }
     stand_at(found.place - bend_start, found.drop);
     return facet;

@@ -195,6 +195,32 @@ Errors measure(const Setting& s, bool charted, int rays) {
     return errors;
 }
 
+// The direct way over an edge: a groove's floor behind it looks the way that the face behind it does.
+TEST(Charts, NormalsBeyondAnEdgeAreThoseOfItsFace) {
+    for (const double degrees : {50.0, -50.0}) {
+        const Body body = cut_bodies(kTile)[degrees > 0 ? 1 : 2];
+        const Setting s = prepare_setting(body);
+        const Decoder decoder(s.pattern.textures, s.detail, &s.table.words);
+        const double c = std::cos(degrees * 3.14159265358979 / 180), t = std::sin(degrees * 3.14159265358979 / 180);
+        int found = 0;
+        for (int i = 0; i < 400; ++i) {
+            // Down in the plane across the edge, towards the second face.
+            const Vec3 direction = normalized({degrees > 0 ? 0.5 : 0.9, -1.0, 0.0});
+            const Vec3 from{-0.002 - 1e-5 * (i % 40), 0.0, -0.45 + 0.0022 * i};
+            const Crossing at = meet(s.mesh.base, from - direction * 0.1, direction);
+            if (!(at.distance < 0.2)) continue;
+            const SurfaceHit hit = decoder.trace_surface(interpolate(s.mesh, at), direction);
+            const BodyPlace place = s.body.locate(from + direction * hit.way);
+            if (!hit.met || place.patch != 1 || hit.element != kDecodedGround || hit.facet != kDecodedGroundFacet) continue;
+            ++found;
+            // In the first face's space x is across the edge and z up; uv has u along x there.
+            EXPECT_NEAR(hit.normal[0], t, 1e-4);
+            EXPECT_NEAR(hit.normal[2], c, 1e-4);
+        }
+        EXPECT_GT(found, 5) << degrees;
+    }
+}
+
 class CutBodies : public ::testing::TestWithParam<int> {};
 
 TEST_P(CutBodies, RaysGoOnBeyondBorders) {

@@ -130,6 +130,14 @@ TEST(Charts, ACreaseTurnsByItsAngle) {
     EXPECT_TRUE(charts_of(two_squares(0.3, [](double x, double z) { return Vec2{1 + x, z}; })).borders.empty());
 }
 
+TEST(Charts, FoldedBackOnItselfIsAnEnd) {
+    EXPECT_TRUE(charts_of(two_squares(3.1, [](double x, double z) { return Vec2{1 + x, z}; })).borders.empty());
+    // A triangle wound the wrong way, with normals to match.
+    Mesh mesh = two_squares(0.0, [](double x, double z) { return Vec2{3 + x, z}; });
+    for (std::size_t i = 12; i < 24; i += 3) mesh.normals[i + 1] = -1.0f;
+    EXPECT_TRUE(charts_of(mesh).borders.empty());
+}
+
 TEST(Charts, DegenerateTrianglesMakeNoBorder) {
     EXPECT_TRUE(charts_of(two_squares(0.0, [](double, double z) { return Vec2{7, z}; })).borders.empty());
     EXPECT_TRUE(charts_of(two_squares(0.0, [](double, double) { return Vec2{7, 7}; })).borders.empty());

@@ -207,7 +207,8 @@ std::string base64(const Bytes& bytes) {
 Bytes broken_charts(const std::function<void(json& document, json& charts, std::vector<std::uint32_t>& words)>& change) {
     return broken_document([&](json& d) {
         std::vector<std::uint32_t> words(6 * 4, 0);
-        words[17] = 1;  // one reference, to border 0
+        words[12] = 0x3f800000u;  // its scale
+        words[17] = 1;            // one reference, to border 0
         json& charts = d["materials"][0]["extensions"][std::string(kPathDetailExtension)]["charts"];
         charts = {{"bufferView", d["bufferViews"].size()}, {"width", 6}, {"height", 1}, {"borders", 1}, {"columns", 1}, {"rows", 1},
                   {"origin", {0.0, 0.0}}, {"cell", {1.0, 1.0}}};
@@ -338,6 +339,14 @@ TEST(Validate, ChartsAreCheckedPartByPart) {
     EXPECT_EQ(numbers([](json&, json& c, Words&) { c["height"] = 0; }), side);
     EXPECT_EQ(numbers([](json& d, json&, Words&) { d["accessors"][1]["type"] = "VEC2"; }), vertices);
     EXPECT_EQ(numbers([](json& d, json&, Words&) { d["accessors"][1]["count"] = 2; }), vertices);
+    EXPECT_EQ(numbers([](json&, json&, Words& w) { w[12] = 0; }), (std::set<int>{2046}));
+    EXPECT_EQ(numbers([](json&, json&, Words& w) { w[13] = 0x40490fdbu; }), (std::set<int>{2046}));
+    // Lines have no charts.
+    EXPECT_EQ(numbers([](json& d, json&, Words&) {
+                  json& primitive = d["meshes"][0]["primitives"][0];
+                  primitive["mode"] = 1;
+                  primitive["attributes"].erase("_BURIN_CHART");
+              }), none);
     EXPECT_EQ(numbers([](json&, json&, Words& w) { w[16] = 0xffffffffu; }), list);
     EXPECT_EQ(numbers([](json&, json&, Words& w) { w[17] = 5; }), list);
 }

@@ -50,7 +50,7 @@ struct ChartOptions {
 };
 
 // The meshes share one space; their charts and borders are numbered together, starting at `first_chart`. Edges of one triangle, or of more
-// than two, edges without length in uv and triangles without area in uv make no border: rays go on as if the chart did.
+// than two, edges without length in uv, triangles without area in uv and edges folded by more than 166 degrees make no border: rays go on as if the chart did.
 // Requires: sizes that belong together, indices in range, finite values. Cost: n log n of the edges.
 ChartSet find_charts(std::span<const SurfaceMesh> meshes, const ChartOptions& options, std::uint32_t first_chart = 0);
 
@@ -60,7 +60,7 @@ struct ChartTable {
 };
 
 // Borders in a grid over their bounding box, about as many cells as borders. `depth`: metres, how far below the surface a border
-// is asked for. Requires: at least one border, finite.
+// is asked for, in metres of the mesh. Requires: at least one border, finite. The table may be too large for a texture; see layout.
 // Cost: linear in borders times cells that they pass. Equal input gives equal bytes.
 ChartTable pack_charts(std::span<const ChartBorder> borders, double depth);
 

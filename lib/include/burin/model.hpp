@@ -122,6 +122,7 @@ struct Primitive {
     int material = 0;                    // index into Asset::materials
     std::vector<SurfaceFrame> frames{};  // one per vertex, world space; none where the file has none
     std::vector<float> charts{};         // number of each vertex' chart; none where the file has none
+    float scale = 1.0f;                  // metres of the world per metre of the mesh: the node's, the mean of its axes
     bool mirrored = false;               // the node's transform turned the triangles over; they are wound anew
     // Four per vertex, the uv sets 0 and 1; none where all textures of the material lie in the set of `uvs`.
     std::vector<float> texture_uvs{};

@@ -36,6 +36,10 @@ struct ValidateOptions {
 void validate_glb(std::span<const std::uint8_t> bytes, const IssueSink& sink,
                   const ValidateOptions& options = {});
 
+// The checks 2045 and 2046 of a chart table. Requires: a layout that parse_extension has read, and as many words as it says.
+// Returns true when no error was found.
+bool validate_charts(const ChartLayout& charts, const std::vector<std::uint32_t>& words, const IssueSink& sink);
+
 // The 3xxx and 4xxx checks, and of the 2xxx those that concern sizes: `textures` as they are described by
 // `detail`. `pointer` is put before every issue's place. Returns true when no error was found.
 bool validate_textures(const PackedTextures& textures, const PathDetail& detail, const IssueSink& sink,
