@@ -74,15 +74,21 @@ void read_version(const json& extension, PathDetail& detail, Reporter& reporter)
     }
 }
 
-void read_size(const json& extension, PathDetail& detail, Reporter& reporter) {
-    const json* size = find_property(extension, "size", true, "", reporter);
-    if (size == nullptr) return;
-    if (!size->is_array() || size->size() != 2 || !(*size)[0].is_number() || !(*size)[1].is_number()) {
-        reporter.report(2005, "size is " + value_text(*size) + ", two numbers are needed", "/size");
-        return;
+// Required property of `object` (at `path`): an array of two numbers.
+bool read_two_numbers(const json& object, const std::string& path, const char* name, double& first, double& second, Reporter& reporter) {
+    const json* pair = find_property(object, name, true, path, reporter);
+    if (pair == nullptr) return false;
+    if (!pair->is_array() || pair->size() != 2 || !(*pair)[0].is_number() || !(*pair)[1].is_number()) {
+        reporter.report(2005, std::string(name) + " is " + value_text(*pair) + ", two numbers are needed", path + "/" + name);
+        return false;
     }
-    detail.size_u = (*size)[0].get<double>();
-    detail.size_v = (*size)[1].get<double>();
+    first = (*pair)[0].get<double>();
+    second = (*pair)[1].get<double>();
+    return true;
+}
+
+void read_size(const json& extension, PathDetail& detail, Reporter& reporter) {
+    if (!read_two_numbers(extension, "", "size", detail.size_u, detail.size_v, reporter)) return;
     if (!is_length(detail.size_u) || !is_length(detail.size_v)) {
         reporter.report(2007,
                         "size is [" + number_text(detail.size_u) + ", " + number_text(detail.size_v) +
@@ -226,19 +232,12 @@ void read_residual(const json& extension, PathDetail& detail, Reporter& reporter
                         path + "/scale");
 }
 
-bool read_pair(const json& object, const char* name, double low, std::array<double, 2>& out, Reporter& reporter) {
-    const std::string path = std::string("/charts/") + name;
-    const json* pair = find_property(object, name, true, "/charts", reporter);
-    if (pair == nullptr) return false;
-    const bool numbers = pair->is_array() && pair->size() == 2 && (*pair)[0].is_number() && (*pair)[1].is_number();
-    if (!numbers) {
-        reporter.report(2005, std::string(name) + " is " + value_text(*pair) + ", two numbers are needed", path);
-        return false;
-    }
-    for (std::size_t i = 0; i < 2; ++i) {
-        out[i] = (*pair)[i].get<double>();
-        if (out[i] >= low && out[i] <= BURIN_MAX_LENGTH) continue;
-        reporter.report(2043, std::string(name) + " is " + number_text(out[i]) + ", range [" + number_text(low) + ", 1e9]", path);
+bool read_chart_lengths(const json& table, const char* name, double low, std::array<double, 2>& out, Reporter& reporter) {
+    if (!read_two_numbers(table, "/charts", name, out[0], out[1], reporter)) return false;
+    for (const double length : out) {
+        if (length >= low && length <= BURIN_MAX_LENGTH) continue;
+        reporter.report(2043, std::string(name) + " is " + number_text(length) + ", range [" + number_text(low) + ", 1e9]",
+                        std::string("/charts/") + name);
         return false;
     }
     return true;
@@ -262,8 +261,8 @@ void read_charts(const json& extension, PathDetail& detail, Reporter& reporter) 
         if (read_count(*table, "/charts", row.name, 1, row.most, 2043, number, reporter)) charts.*row.member = static_cast<int>(number);
         else complete = false;
     }
-    complete = read_pair(*table, "origin", -BURIN_MAX_LENGTH, charts.origin, reporter) && complete;
-    complete = read_pair(*table, "cell", BURIN_MIN_LENGTH, charts.cell, reporter) && complete;
+    complete = read_chart_lengths(*table, "origin", -BURIN_MAX_LENGTH, charts.origin, reporter) && complete;
+    complete = read_chart_lengths(*table, "cell", BURIN_MIN_LENGTH, charts.cell, reporter) && complete;
     const std::size_t texels = static_cast<std::size_t>(charts.width) * static_cast<std::size_t>(charts.height);
     if (complete && charts.first_reference() > texels)
         reporter.report(2044, "borders and cells take " + std::to_string(charts.first_reference()) + " texels, the table has " +

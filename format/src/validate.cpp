@@ -179,9 +179,19 @@ const json* accessor_of(const json& document, const json& primitive, const char*
     return referred(document, "accessors", *attributes, name);
 }
 
+// Whether an attribute is of `type`, in floats, one per vertex.
+bool is_float_attribute(const json& document, const json& primitive, const char* name, const char* type) {
+    constexpr std::int64_t kFloat = 5126;
+    const json* accessor = accessor_of(document, primitive, name);
+    const json* positions = accessor_of(document, primitive, "POSITION");
+    std::int64_t component = 0;
+    return accessor != nullptr && positions != nullptr && accessor->value("type", json()) == type &&
+           accessor->contains("componentType") && read_integer((*accessor)["componentType"], 0, 1 << 16, component) &&
+           component == kFloat && accessor->value("count", json()) == positions->value("count", json());
+}
+
 // The derivatives of the position are all there or none, in the form that a reader expects.
 void check_frames(const json& document, const json& primitive, const std::string& place, Reporter& reporter) {
-    constexpr std::int64_t kFloat = 5126;
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end() || !attributes->is_object()) return;
     std::string missing;
@@ -193,15 +203,8 @@ void check_frames(const json& document, const json& primitive, const std::string
     if (found == 0) return;
     if (found < kFrameAttributes.size())
         reporter.report(2040, "the primitive has derivatives of the position but no " + missing, place);
-    const json* positions = accessor_of(document, primitive, "POSITION");
     for (const char* name : kFrameAttributes) {
-        if (!attributes->contains(name)) continue;
-        const json* accessor = accessor_of(document, primitive, name);
-        std::int64_t type = 0;
-        const bool right = accessor != nullptr && positions != nullptr && accessor->value("type", json()) == "VEC3" &&
-                           accessor->contains("componentType") && read_integer((*accessor)["componentType"], 0, 1 << 16, type) &&
-                           type == kFloat && accessor->value("count", json()) == positions->value("count", json());
-        if (!right)
+        if (attributes->contains(name) && !is_float_attribute(document, primitive, name, "VEC3"))
             reporter.report(2041, std::string(name) + " must be VEC3 of FLOAT (5126), as many as positions",
                             place + "/attributes/" + name);
     }
@@ -209,20 +212,13 @@ void check_frames(const json& document, const json& primitive, const std::string
 
 // Where the material has borders, every vertex says in which chart it lies.
 void check_chart_numbers(const json& document, const json& primitive, bool charted, const std::string& place, Reporter& reporter) {
-    constexpr std::int64_t kFloat = 5126;
-    const json* accessor = accessor_of(document, primitive, kChartAttribute);
     const auto attributes = primitive.find("attributes");
     const bool named = attributes != primitive.end() && attributes->is_object() && attributes->contains(kChartAttribute);
     std::int64_t mode = 4;
     if (primitive.contains("mode")) read_integer(primitive["mode"], 0, 6, mode);
     const bool lines = mode < 4;  // and points have no charts
     if (!named && (!charted || lines)) return;
-    const json* positions = accessor_of(document, primitive, "POSITION");
-    std::int64_t type = 0;
-    const bool right = accessor != nullptr && positions != nullptr && accessor->value("type", json()) == "SCALAR" &&
-                       accessor->contains("componentType") && read_integer((*accessor)["componentType"], 0, 1 << 16, type) &&
-                       type == kFloat && accessor->value("count", json()) == positions->value("count", json());
-    if (!right)
+    if (!is_float_attribute(document, primitive, kChartAttribute, "SCALAR"))
         reporter.report(2042, std::string(kChartAttribute) + " must be SCALAR of FLOAT (5126), as many as positions", place);
 }
 

@@ -9,11 +9,6 @@ namespace {
 
 using Vec3 = std::array<double, 3>;
 
-double determinant(const Matrix& m) {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
-           m[8] * (m[1] * m[6] - m[2] * m[5]);
-}
-
 // Cofactors of the upper 3 x 3 part: the inverse transpose times the determinant, right for normals even when
 // the scale is not uniform, and defined when the matrix has no inverse.
 std::array<double, 9> normal_matrix(const Matrix& m) {
@@ -49,7 +44,7 @@ void transform_vertices(const Matrix& m, Primitive& primitive) {
                 (*vector)[r] = static_cast<float>(m[r] * v[0] + m[4 + r] * v[1] + m[8 + r] * v[2]);
         }
     primitive.mirrored = sign < 0.0;
-    primitive.scale = static_cast<float>(std::cbrt(std::max(std::abs(determinant(m)), 1e-30)));
+    primitive.scale = static_cast<float>(std::max(mean_scale(m), 1e-10));
     // A mirror turns the faces over; their order keeps them counter-clockwise.
     if (sign < 0.0)
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)

@@ -195,6 +195,13 @@ std::vector<std::uint32_t> read_indices(const ModelData& model, std::size_t inde
     return values;
 }
 
+double determinant(const Matrix& m) {
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
+           m[8] * (m[1] * m[6] - m[2] * m[5]);
+}
+
+double mean_scale(const Matrix& m) { return std::cbrt(std::abs(determinant(m))); }
+
 std::vector<PlacedMesh> placed_meshes(const ModelData& model) {
     const Json& document = model.document;
     const Json& nodes = array_of(document, "nodes");

@@ -25,6 +25,10 @@ std::vector<std::uint32_t> read_indices(const ModelData& model, std::size_t acce
 
 using Matrix = std::array<double, 16>;  // column-major, as in glTF
 
+// Of the upper 3 x 3 part: by how much volumes grow, < 0 where it mirrors; and the mean of what lengths grow by.
+double determinant(const Matrix& m);
+double mean_scale(const Matrix& m);
+
 // A mesh at a node of the scene that is shown.
 struct PlacedMesh {
     std::size_t mesh = 0;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <cmath>
+#include <iterator>
 #include <optional>
 
 #include <burin/charts.hpp>
@@ -26,6 +26,32 @@ constexpr int kRepeat = 10497, kClampToEdge = 33071, kLinear = 9729, kLinearMipm
 void append_word(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
 }
+
+// A primitive's surface: what frames and charts are worked out from.
+struct Surface {
+    std::vector<float> positions, normals, uvs;
+    std::vector<std::uint32_t> indices;
+    SurfaceMesh mesh() const { return {positions, normals, uvs, indices}; }
+};
+
+Surface read_surface(const ModelData& model, const Json& primitive, int tex_coord) {
+    Surface surface;
+    surface.positions = read_numbers(model, *attribute_of(primitive, "POSITION"));
+    std::string uv_name = "TEXCOORD_";
+    uv_name += std::to_string(tex_coord);
+    surface.uvs = read_numbers(model, *attribute_of(primitive, uv_name));
+    surface.indices = triangle_indices(model, primitive);
+    const auto given = attribute_of(primitive, "NORMAL");
+    surface.normals = given ? read_numbers(model, *given) : normals_of_faces(surface.positions, surface.indices);
+    return surface;
+}
+
+// A primitive with the material, in the document that is written.
+struct Carrier {
+    std::size_t mesh;
+    Json* primitive;
+    Surface surface;
+};
 
 class GlbWriter {
   public:
@@ -122,11 +148,14 @@ class GlbWriter {
         return materials[index];
     }
 
-    // Derivatives of the position, on those primitives of a material that are not flat.
-    void add_frames(std::size_t material, int tex_coord);
+    // All primitives of triangles with a material. Good as long as the document gets no further meshes.
+    std::vector<Carrier> carriers_of(std::size_t material, int tex_coord);
 
-    // Where the texture coordinates of a material are cut: the table, whose description goes to `detail`, and chart numbers.
-    Status add_charts(std::size_t material, PathDetail& detail);
+    // Derivatives of the position, on those that are not flat.
+    void add_frames(const std::vector<Carrier>& carriers);
+
+    // Where their texture coordinates are cut: the table, whose description goes to `detail`, and chart numbers.
+    Status add_charts(const std::vector<Carrier>& carriers, PathDetail& detail);
 
     void use_extension(const std::string& name) {
         Json& used = document_["extensionsUsed"];
@@ -278,25 +307,6 @@ void GlbWriter::take_off_attributes(std::size_t material) {
         }
 }
 
-// A primitive's surface: what frames and charts are worked out from.
-struct Surface {
-    std::vector<float> positions, normals, uvs;
-    std::vector<std::uint32_t> indices;
-    SurfaceMesh mesh() const { return {positions, normals, uvs, indices}; }
-};
-
-Surface read_surface(const ModelData& model, const Json& primitive, int tex_coord) {
-    Surface surface;
-    surface.positions = read_numbers(model, *attribute_of(primitive, "POSITION"));
-    std::string uv_name = "TEXCOORD_";
-    uv_name += std::to_string(tex_coord);
-    surface.uvs = read_numbers(model, *attribute_of(primitive, uv_name));
-    surface.indices = triangle_indices(model, primitive);
-    const auto given = attribute_of(primitive, "NORMAL");
-    surface.normals = given ? read_numbers(model, *given) : normals_of_faces(surface.positions, surface.indices);
-    return surface;
-}
-
 // Frames of a primitive, as floats in the order of its vertices and of kFrameAttributes; empty where it is flat.
 std::vector<float> frames_of(const Surface& surface) {
     std::vector<float> values;
@@ -306,41 +316,46 @@ std::vector<float> frames_of(const Surface& surface) {
     return values;
 }
 
-void GlbWriter::add_frames(std::size_t material, int tex_coord) {
-    constexpr std::size_t kStride = kFrameAttributes.size() * 12;
-    constexpr int kFloat = 5126, kArrayBuffer = 34962;
+std::vector<Carrier> GlbWriter::carriers_of(std::size_t material, int tex_coord) {
+    std::vector<Carrier> carriers;
     const Json& meshes = array_of(model_.document, "meshes");
     for (std::size_t m = 0; m < meshes.size(); ++m)
         for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
             Json& primitive = document_["meshes"][m]["primitives"][p];
-            if (!is_triangles(primitive) || unsigned_or(primitive, "material", ~std::uint64_t{0}) != material) continue;
-            const std::vector<float> values = frames_of(read_surface(model_, meshes[m]["primitives"][p], tex_coord));
-            if (values.empty()) continue;
-            // Places first, so that those of a replaced pattern give their view back.
-            std::array<std::size_t, kFrameAttributes.size()> accessors;
-            for (std::size_t& accessor : accessors) accessor = places_.take("accessors");
-            std::vector<std::uint8_t> bytes;
-            bytes.reserve(values.size() * 4);
-            for (const float value : values) append_word(bytes, std::bit_cast<std::uint32_t>(value));
-            const std::size_t view = add_view(bytes, kAlignment);
-            document_["bufferViews"][view].update(
-                {{"byteStride", kStride}, {"target", kArrayBuffer}, {"name", "path detail, frames"}});
-            for (std::size_t k = 0; k < accessors.size(); ++k) {
-                document_["accessors"][accessors[k]] = {{"bufferView", view}, {"byteOffset", 12 * k}, {"componentType", kFloat},
-                                                        {"count", bytes.size() / kStride}, {"type", "VEC3"}};
-                primitive["attributes"][kFrameAttributes[k]] = accessors[k];
-            }
+            if (is_triangles(primitive) && unsigned_or(primitive, "material", ~std::uint64_t{0}) == material)
+                carriers.push_back({m, &primitive, read_surface(model_, meshes[m]["primitives"][p], tex_coord)});
         }
+    return carriers;
+}
+
+void GlbWriter::add_frames(const std::vector<Carrier>& carriers) {
+    constexpr std::size_t kStride = kFrameAttributes.size() * 12;
+    constexpr int kFloat = 5126, kArrayBuffer = 34962;
+    for (const Carrier& carrier : carriers) {
+        const std::vector<float> values = frames_of(carrier.surface);
+        if (values.empty()) continue;
+        // Places first, so that those of a replaced pattern give their view back.
+        std::array<std::size_t, kFrameAttributes.size()> accessors;
+        for (std::size_t& accessor : accessors) accessor = places_.take("accessors");
+        std::vector<std::uint8_t> bytes;
+        bytes.reserve(values.size() * 4);
+        for (const float value : values) append_word(bytes, std::bit_cast<std::uint32_t>(value));
+        const std::size_t view = add_view(bytes, kAlignment);
+        document_["bufferViews"][view].update(
+            {{"byteStride", kStride}, {"target", kArrayBuffer}, {"name", "path detail, frames"}});
+        for (std::size_t k = 0; k < accessors.size(); ++k) {
+            document_["accessors"][accessors[k]] = {{"bufferView", view}, {"byteOffset", 12 * k}, {"componentType", kFloat},
+                                                    {"count", bytes.size() / kStride}, {"type", "VEC3"}};
+            (*carrier.primitive)["attributes"][kFrameAttributes[k]] = accessors[k];
+        }
+    }
 }
 
 // The least scale at which a node shows a mesh; drops are metres of the world.
 double least_scale(const ModelData& model) {
     double least = 1e30;
-    for (const PlacedMesh& placed : placed_meshes(model)) {
-        const Matrix& m = placed.transform;
-        const double volume = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) + m[8] * (m[1] * m[6] - m[2] * m[5]);
-        if (volume != 0.0) least = std::min(least, std::cbrt(std::abs(volume)));
-    }
+    for (const PlacedMesh& placed : placed_meshes(model))
+        if (const double scale = mean_scale(placed.transform); scale > 0.0) least = std::min(least, scale);
     return least < 1e30 ? least : 1.0;
 }
 
@@ -355,43 +370,37 @@ void GlbWriter::add_numbers(Json& primitive, const char* attribute, const std::v
     primitive["attributes"][attribute] = accessor;
 }
 
-Status GlbWriter::add_charts(std::size_t material, PathDetail& detail) {
-    const Json& meshes = array_of(model_.document, "meshes");
-    const ChartOptions options{{detail.size_u, detail.size_v}, detail.repeat};
-    std::vector<ChartBorder> borders;
-    std::vector<std::pair<Json*, std::vector<std::uint32_t>>> numbers;
-    std::uint32_t count = 0;
-    bool needed = false;
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        std::vector<Surface> surfaces;
-        std::vector<Json*> owners;
-        for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
-            Json& primitive = document_["meshes"][m]["primitives"][p];
-            if (!is_triangles(primitive) || unsigned_or(primitive, "material", ~std::uint64_t{0}) != material) continue;
-            surfaces.push_back(read_surface(model_, meshes[m]["primitives"][p], detail.tex_coord));
-            owners.push_back(&primitive);
-        }
-        std::vector<SurfaceMesh> views;
-        for (const Surface& surface : surfaces) views.push_back(surface.mesh());
-        ChartSet found = find_charts(views, options, count);
-        count += found.count;
-        needed = needed || found.needed;
-        borders.insert(borders.end(), found.borders.begin(), found.borders.end());
-        for (std::size_t i = 0; i < owners.size(); ++i) numbers.emplace_back(owners[i], std::move(found.charts[i]));
+// Charts of each mesh's carriers, which follow each other, as one set.
+ChartSet charts_of(const std::vector<Carrier>& carriers, const ChartOptions& options) {
+    ChartSet all;
+    for (std::size_t first = 0, next = 0; first < carriers.size(); first = next) {
+        std::vector<SurfaceMesh> meshes;
+        for (; next < carriers.size() && carriers[next].mesh == carriers[first].mesh; ++next)
+            meshes.push_back(carriers[next].surface.mesh());
+        ChartSet found = find_charts(meshes, options, all.count);
+        all.count += found.count;
+        all.needed = all.needed || found.needed;
+        all.borders.insert(all.borders.end(), found.borders.begin(), found.borders.end());
+        std::move(found.charts.begin(), found.charts.end(), std::back_inserter(all.charts));
     }
+    return all;
+}
+
+Status GlbWriter::add_charts(const std::vector<Carrier>& carriers, PathDetail& detail) {
+    const ChartSet set = charts_of(carriers, {{detail.size_u, detail.size_v}, detail.repeat});
     detail.charts = {};
-    if (!needed) return Done{};
-    if (borders.size() > BURIN_MAX_BORDERS)
-        return Error{ErrorCode::limit_exceeded, "the texture coordinates are cut along " + std::to_string(borders.size() / 2) +
+    if (!set.needed) return Done{};
+    if (set.borders.size() > BURIN_MAX_BORDERS)
+        return Error{ErrorCode::limit_exceeded, "the texture coordinates are cut along " + std::to_string(set.borders.size() / 2) +
                                                     " edges of the mesh, at most " + std::to_string(BURIN_MAX_BORDERS / 2) +
                                                     " are supported; weld vertices that share position and uv"};
-    ChartTable table = pack_charts(borders, detail.depth / least_scale(model_));
+    ChartTable table = pack_charts(set.borders, detail.depth / least_scale(model_));
     if (table.layout.height > BURIN_MAX_TEXTURE_SIDE)
         return Error{ErrorCode::limit_exceeded, "the table of the edges along which the texture coordinates are cut takes " +
                                                     std::to_string(table.layout.height) + " rows of 4096 texels, at most 4096 are supported"};
     detail.charts = table.layout;
     detail.charts.view = static_cast<int>(add_words(table.words, "path detail, charts"));
-    for (const auto& [primitive, values] : numbers) add_numbers(*primitive, kChartAttribute, values);
+    for (std::size_t i = 0; i < carriers.size(); ++i) add_numbers(*carriers[i].primitive, kChartAttribute, set.charts[i]);
     return Done{};
 }
 
@@ -448,12 +457,13 @@ Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedText
         described.residual_scale = residual.scale;
     }
     Json& material = writer.material(target->index, target->name);
-    if (Status status = writer.add_charts(target->index, described); !status.ok()) return status.error();
+    const std::vector<Carrier> carriers = writer.carriers_of(target->index, options.tex_coord);
+    if (Status status = writer.add_charts(carriers, described); !status.ok()) return status.error();
     if (Status status = add_fallback(writer, material, fallback, described); !status.ok())
         return status.error();
     material["extensions"][std::string(kPathDetailExtension)] = Json::parse(write_extension(described));
     writer.use_extension(std::string(kPathDetailExtension));
-    writer.add_frames(target->index, options.tex_coord);
+    writer.add_frames(carriers);
     return writer.finish();
 }
 
