@@ -109,7 +109,7 @@ BurinRound burin_bend_from(vec3 xx, vec3 xy, vec3 yy, vec3 metric, vec3 spread) 
     // What the surface turns and stretches over one depth; less than rounding makes of it is nothing, and far too much is
     // a broken triangle.
     float most = max(max(length(bend.xx), length(bend.xy)), length(bend.yy));
-    bend.bent = most * burin_map.depth > 1.0e-6f && most * burin_map.depth < BURIN_MOST_CURVE;
+    bend.bent = BURIN_ROUND != 0 && most * burin_map.depth > 1.0e-6f && most * burin_map.depth < BURIN_MOST_CURVE;
     return bend;
 }
 

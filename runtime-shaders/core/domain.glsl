@@ -166,16 +166,10 @@ uint burin_parts_of(BurinEnd start, BurinEnd end, bool left, bool right, bool cu
     return parts;
 }
 
-// Requires: some bit is set, below 2 * BURIN_PARTS.
+// Requires: some bit is set.
 int burin_lowest_bit(uint bits) {
-    uint low = bits & (~bits + 1u);
-    int at = 0;
-    if ((low & 0xffu) == 0u) at = 8;
-    uint rest = low >> uint(at);
-    if ((rest & 15u) == 0u) at += 4;
-    rest = low >> uint(at);
-    if ((rest & 3u) == 0u) at += 2;
-    return (low >> uint(at)) == 1u ? at : at + 1;
+    // A power of two is exact in float, and its exponent says which.
+    return int(floatBitsToUint(float(bits & (~bits + 1u))) >> 23) - 127;
 }
 
 // The stretch of `whole` where part `part` acts on `side` (-1 or +1).
@@ -228,6 +222,11 @@ struct BurinSection {
     vec2 scale_rates;  // of width and height per metre along the path
 };
 
+// Whether the ray's section of a piece is straight.
+bool burin_is_straight(BurinPiece piece) {
+    return BURIN_BENDS == 0 || (piece.kind == BURIN_PIECE_LINEAR && piece.fixed_scale);
+}
+
 BurinSection burin_section(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, float t) {
     vec2 p = ray.slope * t;
     BurinSection s;
@@ -239,9 +238,11 @@ BurinSection burin_section(BurinElement e, BurinStyle style, BurinPiece piece, B
     float b = dot(piece.gradient, p - piece.anchor);
     float along = 0.0f;
     float speed = e.extent;  // metres of the plane along the path per parameter
+#if BURIN_BENDS != 0
     if (piece.kind == BURIN_PIECE_RADIAL) {
         b = piece.side * length(p - piece.anchor);
         s.gradient = burin_direction(p - piece.anchor, e.t0) * piece.side;
+#if BURIN_CURVES != 0
     } else if (piece.kind == BURIN_PIECE_CURVE) {
         BurinFoot foot = burin_curve_foot(e, p);
         b = foot.offset;
@@ -252,6 +253,7 @@ BurinSection burin_section(BurinElement e, BurinStyle style, BurinPiece piece, B
         vec2 bend = (e.p0 - 2.0f * e.p1 + e.p2) * 2.0f;
         // Beside the path the parameter runs slower or faster, as on arcs around its centre of curvature.
         speed = length(edge) - foot.offset * dot(bend, foot.normal) / max(length(edge), 1.0e-12f);
+#endif
     } else if (!piece.fixed_scale) {
         along = dot(p - e.p0, e.t0) / max(e.extent, 1.0e-9f);
     }
@@ -262,6 +264,7 @@ BurinSection burin_section(BurinElement e, BurinStyle style, BurinPiece piece, B
         s.height = max(scales.scale.y, 1.0e-3f);
         if (along == clamped) s.scale_rates = scales.rate * (1.0f / max(speed, 1.0e-9f));
     }
+#endif
     s.q = vec2(b / (s.width * style.reach), (style.level - t) / (s.height * burin_map.depth));
     return s;
 }

@@ -29,8 +29,9 @@ BurinCell burin_cell(ivec2 index) {
     cell.count = int((word.x >> 20) & 63u);
     cell.skip = int((word.x >> 26) & 15u);
     cell.flags = word.x >> 30;
+    cell.stepped = BURIN_STEPS != 0 && (cell.flags & BURIN_CELL_FLAG_STEP) != 0u;
     cell.start = vec2(0.0f, 0.0f);
-    if ((cell.flags & BURIN_CELL_FLAG_STEP) != 0u) {
+    if (cell.stepped) {
         cell.start = vec2(burin_start(cell.skip * BURIN_START_FACTOR_U), burin_start(cell.skip * BURIN_START_FACTOR_V));
         cell.skip = 0;
     }
@@ -76,11 +77,16 @@ vec4 burin_floats(uvec4 bits) {
     return vec4(uintBitsToFloat(bits.x), uintBitsToFloat(bits.y), uintBitsToFloat(bits.z), uintBitsToFloat(bits.w));
 }
 
-// The element as seen from `origin`, in the tile image whose chord is nearest to the cell's centre.
+// Whole tiles by which an element is moved: to the image whose chord is nearest to the cell's centre.
+vec2 burin_image(vec2 p0, vec2 p2, vec2 centre) {
+    return burin_map.repeats != 0 ? floor(centre - (p0 + p2) * 0.5f + vec2(0.5f, 0.5f)) : vec2(0.0f, 0.0f);
+}
+
+// The element as seen from `origin`, in that image.
 BurinElement burin_element(uint reference, vec2 origin, vec2 centre) {
     uvec4 a = fetch_data(int(reference));
     BurinElement e;
-    e.curved = (a.z & 0x10000000u) != 0u;
+    e.curved = BURIN_CURVES != 0 && (a.z & 0x10000000u) != 0u;
     vec2 p0 = burin_vertex_uv(a.x, a.y);
     vec2 p2 = burin_vertex_uv(a.z, a.w);
     vec2 p1 = (p0 + p2) * 0.5f;
@@ -117,10 +123,7 @@ BurinElement burin_element(uint reference, vec2 origin, vec2 centre) {
 #endif
     }
 #endif
-    vec2 shift = vec2(0.0f, 0.0f);
-    if (burin_map.repeats != 0) {
-        shift = floor(centre - (p0 + p2) * 0.5f + vec2(0.5f, 0.5f));
-    }
+    vec2 shift = burin_image(p0, p2, centre);
     e.p0 = (p0 + shift) * burin_map.size - origin;
     e.p1 = (p1 + shift) * burin_map.size - origin;
     e.p2 = (p2 + shift) * burin_map.size - origin;
@@ -142,7 +145,7 @@ BurinStyle burin_style(uint index) {
     BurinStyle style;
     style.first = burin_map.first_profile + int(texel.x & 0xffffu);
     style.count = int((texel.x >> 16) & 63u);
-    style.stepped = ((texel.x >> 22) & 1u) != 0u;
+    style.stepped = BURIN_STEPS != 0 && ((texel.x >> 22) & 1u) != 0u;
     style.material = texel.x >> 23;
     style.level = burin_drop(float(texel.y & 0xffffu) / 65535.0f);
     style.right_level = burin_drop(float(texel.y >> 16) / 65535.0f);

@@ -118,12 +118,14 @@ BurinScales burin_scales(BurinElement e, float s) {
     BurinScales found;
     found.scale = mix(vec2(e.scales.x, e.scales.z), vec2(e.scales.y, e.scales.w), s);
     found.rate = vec2(e.scales.y - e.scales.x, e.scales.w - e.scales.z);
+#if BURIN_FUNCTION_KINDS != 0
     if (e.waved) {
         vec2 share = burin_arc_share(e, s);
         BurinFactors f = burin_factors(e, e.argument.x + e.argument.y * share.x);
         found.rate = found.rate * f.factor + found.scale * f.rate * (e.argument.y * share.y);
         found.scale = found.scale * f.factor;
     }
+#endif
     return found;
 }
 

@@ -133,7 +133,6 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     int pieces = burin_piece_count(e, limits, footprint.radius);
     float centre = stretch.middle;
     for (int i = 0; i < 8; ++i) {
-        if (i >= pieces) break;
         stretch.limits = vec2(mix(limits.x, limits.y, float(i) / float(pieces)),
                               mix(limits.x, limits.y, float(i + 1) / float(pieces)));
         stretch.lean = vec2(stretch.limits.x <= 0.0f ? lean.x : 0.0f, stretch.limits.y >= 1.0f ? lean.y : 0.0f);
@@ -145,6 +144,7 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
             stretch.scales = burin_scales_at(e, stretch.middle);
         }
         mask = mask | burin_add_stripe(e, style, stretch, footprint, ray.slope, light_slope, shadows, region);
+        if (i + 1 >= pieces) break;
     }
     // A ray that runs along a bend for long meets it elsewhere than the stripes are.
     float curvature = abs(burin_bend(e, stretch, ray.slope, light_slope).curvature);
@@ -175,6 +175,20 @@ vec4 burin_region_box(BurinRay ray, BurinFootprint footprint, vec2 drops) {
     vec2 low = (min(a, b) - half_size) * to_cells;
     vec2 high = (max(a, b) + half_size) * to_cells;
     return vec4(floor(low.x), floor(low.y), floor(high.x), floor(high.y));
+}
+
+// Cell k of a block of cells, row by row.
+struct BurinRegionCell {
+    ivec2 wrapped;  // in the map
+    vec2 centre;    // uv, not wrapped
+};
+
+BurinRegionCell burin_region_cell(ivec2 low, ivec2 sides, int k) {
+    ivec2 index = low + ivec2(k % sides.x, k / sides.x);
+    BurinRegionCell at;
+    at.wrapped = index - ivec2(floor(vec2(index) / vec2(burin_map.cells))) * burin_map.cells;
+    at.centre = (vec2(index) + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
+    return at;
 }
 
 // `ground` is the colour of lit ground, `ground_drop` the drop of the ground around. The ray passes the object surface at the
@@ -212,25 +226,24 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
     if ((wide.z - wide.x + 1.0f) * (wide.w - wide.y + 1.0f) <= float(BURIN_MAX_REGION_CELLS)) box = wide;
     ivec2 low = ivec2(int(box.x), int(box.y));
     ivec2 sides = ivec2(int(box.z), int(box.w)) - low + ivec2(1, 1);
+    // First which elements there are, since cells share them; then each once, in the cell that named it first.
     uint seen[BURIN_MAX_REGION_ELEMENTS];
-    vec2 places[BURIN_MAX_REGION_ELEMENTS];
+    vec2 images[BURIN_MAX_REGION_ELEMENTS];
+    int homes[BURIN_MAX_REGION_ELEMENTS];
     int count = 0;
     for (int k = 0; k < BURIN_MAX_REGION_CELLS; ++k) {
-        if (k >= sides.x * sides.y) break;
-        ivec2 index = low + ivec2(k % sides.x, k / sides.x);
-        ivec2 wrapped = index - ivec2(floor(vec2(index) / vec2(burin_map.cells))) * burin_map.cells;
-        BurinCell cell = burin_cell(wrapped);
-        vec2 centre = (vec2(index) + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
+        BurinRegionCell at = burin_region_cell(low, sides, k);
+        BurinCell cell = burin_cell(at.wrapped);
         uvec4 texel = uvec4(0u, 0u, 0u, 0u);
         for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
             if (i >= cell.count) break;
             uint reference = burin_listed(cell, i, texel);
-            BurinElement e = burin_element(reference, ray.origin, centre);
-            // Cells share elements; each copy of one counts once.
+            uvec4 a = fetch_data(int(reference));
+            vec2 image = burin_image(burin_vertex_uv(a.x, a.y), burin_vertex_uv(a.z, a.w), at.centre);
             bool known = false;
             for (int j = 0; j < BURIN_MAX_REGION_ELEMENTS; ++j) {
-                if (j >= count) break;
-                if (seen[j] == reference && length(places[j] - e.p0) < 0.25f * min(burin_map.size.x, burin_map.size.y)) known = true;
+                if (j >= count || known) break;
+                known = seen[j] == reference && images[j] == image;
             }
             if (known) continue;
             if (count == BURIN_MAX_REGION_ELEMENTS) {
@@ -240,10 +253,19 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
                 return region;
             }
             seen[count] = reference;
-            places[count] = e.p0;
+            images[count] = image;
+            homes[count] = k;
             ++count;
-            burin_add_element(e, cell, ray, footprint, light_slope, shadows, region);
         }
+        if (k + 1 >= sides.x * sides.y) break;
+    }
+    for (int j = 0; j < BURIN_MAX_REGION_ELEMENTS; ++j) {
+        if (j < count) {
+            BurinRegionCell at = burin_region_cell(low, sides, homes[j]);
+            BurinElement e = burin_element(seen[j], ray.origin, at.centre);
+            burin_add_element(e, burin_cell(at.wrapped), ray, footprint, light_slope, shadows, region);
+        }
+        if (j + 1 >= count) break;
     }
     region.fullness = max(region.fullness, float(region.elements) / float(BURIN_MAX_REGION_ELEMENTS));
     // Where a map ends, its ground stands against the light that falls into a feature.

@@ -46,6 +46,7 @@ float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRa
     float fb = values.y;
     float t = mix(ta, tb, fa / (fa - fb));
     if (straight) return t;
+#if BURIN_BENDS != 0
     // Regula falsi with halving of the end that stays (Illinois).
     float settled = 1.0e-6f * burin_map.depth;
     for (int i = 0; i < 12; ++i) {
@@ -66,6 +67,7 @@ float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRa
         t = better;
         if (done) break;
     }
+#endif
     return t;
 }
 
@@ -73,6 +75,7 @@ float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRa
 bool burin_passes_left(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 d,
                        vec2 point, bool straight) {
     vec2 q = qa;
+#if BURIN_BENDS != 0
     // Points beside the stretch need no second look.
     if (!straight && point.x > min(qa.x, qa.x + d.x) - 0.1f && point.x < max(qa.x, qa.x + d.x) + 0.1f) {
         float share = clamp((point.y - qa.y) / min(d.y, -1.0e-20f), 0.0f, 1.0f);
@@ -81,6 +84,7 @@ bool burin_passes_left(BurinElement e, BurinStyle style, BurinPiece piece, Burin
         else
             q = qa + d * share;
     }
+#endif
     return d.x * (point.y - q.y) - d.y * (point.x - q.x) > 0.0f;
 }
 
@@ -170,6 +174,7 @@ BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piec
     found.values = vec3(fa, fb, fb);
     found.first = odd;
     found.second = false;
+#if BURIN_BENDS != 0
     bool apart = min(abs(fa), abs(fb)) > 0.1f * length(way);
     if (straight || apart || (fa > 0.0f) != (fb > 0.0f)) return found;
     float turn = 0.5f;
@@ -196,6 +201,7 @@ BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piec
     if (between != last_between) found.first = between == (dot(d, way) > 0.0f);
     else found.first = !between && along > 0.0f && along < dot(way, way);
     found.second = between != last_between ? !found.first : found.first;
+#endif
     return found;
 }
 
@@ -203,75 +209,119 @@ BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piec
 void burin_note_crossings(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, BurinCrossings on,
                           vec2 anchor, bool straight, vec2 add_range, float cut_from, int facet, BURIN_INOUT(BurinEvents) found) {
     for (int k = 0; k < 2; ++k) {
-        if (!(k == 0 ? on.first : on.second)) continue;
         vec2 part = k == 0 ? vec2(range.x, on.middle) : vec2(on.middle, range.y);
         vec2 values = k == 0 ? vec2(on.values.x, on.values.y) : vec2(on.values.y, on.values.z);
-        if ((values.x > 0.0f) == (values.y > 0.0f)) continue;
-        float t = burin_crossing(e, style, piece, ray, part, values, anchor, on.across, straight);
         bool inwards = values.x > 0.0f;
-        if (t > add_range.x && t < add_range.y) burin_note_add(t, facet, inwards, found);
-        if (t > cut_from) burin_note_cut(t, facet, inwards, found);
+        if ((k == 0 ? on.first : on.second) && inwards != (values.y > 0.0f)) {
+            float t = burin_crossing(e, style, piece, ray, part, values, anchor, on.across, straight);
+            if (t > add_range.x && t < add_range.y) burin_note_add(t, facet, inwards, found);
+            if (t > cut_from) burin_note_cut(t, facet, inwards, found);
+        }
+        if (!on.second) break;
     }
 }
 
-// The next crossings of a profile's borders: of its add between the drops add_range, of its cut after cut_from.
-BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
-                         bool straight, vec2 add_range, float cut_from) {
-    BurinEvents found = burin_no_events();
+// The borders of a profile that a stretch may cross. Bit i of `facets`: the facet from point i to the next; of `uprights`: the
+// vertical ray over point i, where a run of cutting facets begins or ends; of `lefts`: the ray passes point i on its left.
+// Finding them costs a look at every point, asking them where they are crossed many times that.
+struct BurinBounds {
+    uint facets;
+    uint uprights;
+    uint lefts;
+};
+
+bool burin_bit(uint bits, int i) {
+    return ((bits >> uint(i)) & 1u) != 0u;
+}
+
+// Whether the border from `last` along `way` can be crossed, of which `odd` says whether a straight stretch crosses it.
+bool burin_may_cross(vec2 qa, vec2 qb, bool straight, vec2 last, vec2 way, bool odd) {
+    if (odd || straight) return odd;
+    vec2 across = vec2(-way.y, way.x);
+    float fa = dot(qa - last, across);
+    float fb = dot(qb - last, across);
+    return (fa > 0.0f) == (fb > 0.0f) && min(abs(fa), abs(fb)) <= 0.1f * length(way);
+}
+
+// Finds them, and whether the stretch ends in the cut, and its part above the ground, which ends at `qe`, in the add.
+BurinBounds burin_bounds(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
+                         vec2 qe, bool straight, BURIN_INOUT(BurinEvents) found) {
+    BurinBounds bounds;
+    bounds.facets = 0u;
+    bounds.uprights = 0u;
+    bounds.lefts = 0u;
     vec2 d = qb - qa;
-    // An add ends at the ground; below it the profile says nothing about it.
-    vec2 qe = mix(qa, qb, clamp((add_range.y - range.x) / (range.y - range.x), 0.0f, 1.0f));
+    vec2 up = vec2(0.0f, BURIN_FAR_UP);
     float bulge = straight ? 0.0f : 0.1f;
     float b_low = min(qa.x, qb.x) - bulge;
     float b_high = max(qa.x, qb.x) + bulge;
     uvec4 texel = uvec4(0u, 0u, 0u, 0u);
     vec2 last = vec2(0.0f, 0.0f);
     bool last_left = false;
-    bool last_known = false;
     bool last_internal = false;
     bool run_odd = false;
-    bool known = false;
-    vec2 qm = vec2(0.0f, 0.0f);
-    for (int i = 0; i <= BURIN_MAX_PROFILE_POINTS; ++i) {
-        if (i > style.count) break;
-        bool facet = i > 0 && i < style.count;
-        bool internal = facet && ((style.internal >> (i - 1)) & 1u) != 0u;
-        if (i % BURIN_POINTS_PER_TEXEL == 0 && i < style.count) texel = burin_point_texel(style, i);
-        vec2 point = i < style.count ? burin_point(texel, i) : last;
+    for (int i = 0; i < BURIN_MAX_PROFILE_POINTS; ++i) {
+        if (i % BURIN_POINTS_PER_TEXEL == 0) texel = burin_point_texel(style, i);
+        vec2 point = burin_point(texel, i);
+        bool internal = i > 0 && burin_bit(style.internal, i - 1);
+        bool left = burin_passes_left(e, style, piece, ray, range, qa, d, point, straight);
+        bounds.lefts = bounds.lefts | (left ? 1u << uint(i) : 0u);
         if (internal && burin_spans(last, point, qb.x) && burin_facet_height(last, point, qb.x) <= qb.y) run_odd = !run_odd;
-        if (last_internal && !internal) {
-            found.cut_at_end = found.cut_at_end || run_odd;
-            run_odd = false;
-        }
+        bool ends = last_internal && !internal;
+        found.cut_at_end = found.cut_at_end || (ends && run_odd);
+        run_odd = run_odd && !ends;
         // A facet whose ends lie beside the stretch, on one side of it, is not crossed.
-        bool beside = facet && (max(point.x, last.x) < b_low || min(point.x, last.x) > b_high);
-        bool left = last_left;
-        if (!beside) {
-            for (int k = last_known || i == 0 ? 1 : 0; k < 2; ++k) {
-                left = burin_passes_left(e, style, piece, ray, range, qa, d, k == 0 ? last : point, straight);
-                if (k == 0 || i == style.count) last_left = left;
-            }
-            if (facet && burin_spans(last, point, qe.x) && burin_facet_height(last, point, qe.x) > qe.y + BURIN_FILM)
+        if (i > 0 && max(point.x, last.x) >= b_low && min(point.x, last.x) <= b_high) {
+            if (burin_spans(last, point, qe.x) && burin_facet_height(last, point, qe.x) > qe.y + BURIN_FILM)
                 found.add_at_end = !found.add_at_end;
-        }
-        // The facet itself, and the vertical ray over the point where a run of cutting facets begins or ends.
-        bool above = (d.x > 0.0f) != last_left;
-        int borders = beside ? 0 : (internal != last_internal ? 2 : 1);
-        for (int k = facet ? 0 : 1; k < borders; ++k) {
-            bool own = k == 0;
-            vec2 next = own ? point : last + vec2(0.0f, BURIN_FAR_UP);
-            float sense = own || !internal ? 1.0f : -1.0f;
-            BurinCrossings on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, next, sense, last_left,
-                                                own && left, own ? last_left != left : above, known, qm);
-            vec2 add_part = own ? add_range : vec2(1.0f, 0.0f);
-            float cuts_after = own && !internal ? 1.0e30f : cut_from;
-            burin_note_crossings(e, style, piece, ray, range, on, last, straight, add_part, cuts_after,
-                                 own ? i - 1 : BURIN_FACET_WALL, found);
+            uint bit = 1u << uint(i - 1);
+            if (burin_may_cross(qa, qb, straight, last, point - last, last_left != left)) bounds.facets = bounds.facets | bit;
+            if (internal != last_internal && burin_may_cross(qa, qb, straight, last, up, (d.x > 0.0f) != last_left))
+                bounds.uprights = bounds.uprights | bit;
         }
         last = point;
         last_left = left;
-        last_known = !beside;
         last_internal = internal;
+        if (i + 1 >= style.count) break;
+    }
+    found.cut_at_end = found.cut_at_end || (last_internal && run_odd);
+    if (last_internal && burin_may_cross(qa, qb, straight, last, up, (d.x > 0.0f) != last_left))
+        bounds.uprights = bounds.uprights | (1u << uint(style.count - 1));
+    return bounds;
+}
+
+// The next crossings of a profile's borders: of its add between the drops add_range, of its cut after cut_from.
+BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
+                         bool straight, vec2 add_range, float cut_from) {
+    BurinEvents found = burin_no_events();
+    // An add ends at the ground; below it the profile says nothing about it.
+    vec2 qe = mix(qa, qb, clamp((add_range.y - range.x) / (range.y - range.x), 0.0f, 1.0f));
+    BurinBounds bounds = burin_bounds(e, style, piece, ray, range, qa, qb, qe, straight, found);
+    bool known = false;
+    vec2 qm = vec2(0.0f, 0.0f);
+    for (int n = 0; n < 2 * BURIN_MAX_PROFILE_POINTS; ++n) {
+        uint left_over = bounds.facets | bounds.uprights;
+        if (left_over == 0u) break;
+        int i = burin_lowest_bit(left_over);
+        uint bit = 1u << uint(i);
+        bool own = (bounds.facets & bit) != 0u;
+        bool internal = i + 1 < style.count && burin_bit(style.internal, i);
+        vec2 last = burin_profile_point(style, i);
+        vec2 next = own ? burin_profile_point(style, i + 1) : last + vec2(0.0f, BURIN_FAR_UP);
+        bool last_left = burin_bit(bounds.lefts, i);
+        bool left = own && burin_bit(bounds.lefts, i + 1);
+        bool odd = last_left != (own ? left : qb.x > qa.x);
+        float sense = own || !internal ? 1.0f : -1.0f;
+        BurinCrossings on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, next, sense, last_left, left,
+                                            odd, known, qm);
+        vec2 add_part = own ? add_range : vec2(1.0f, 0.0f);
+        float cuts_after = own && !internal ? 1.0e30f : cut_from;
+        burin_note_crossings(e, style, piece, ray, range, on, last, straight, add_part, cuts_after,
+                             own ? i : BURIN_FACET_WALL, found);
+        if (own) bounds.facets = bounds.facets ^ bit;
+        else bounds.uprights = bounds.uprights ^ bit;
+        // Drivers that run every turn of a loop for all pixels of a block run one more for a test at its beginning.
+        if ((bounds.facets | bounds.uprights) == 0u) break;
     }
     // Two facets that lie on each other, as in a slot of no width: the crossings are counted instead.
     if (found.add_tied) found.add_enters = found.add_at_end == found.add_odd;

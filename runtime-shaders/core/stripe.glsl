@@ -242,7 +242,6 @@ BurinShade burin_shade_profile(BurinStyle style, vec2 scales, BurinBend bend, bo
     vec2 last = vec2(0.0f, 0.0f);
     int rim = 0;  // of a straight path: the point that keeps most light off what follows
     for (int k = 0; k < BURIN_MAX_PROFILE_POINTS; ++k) {
-        if (k >= style.count) break;
         int i = shade.order > 0.0f ? k : style.count - 1 - k;
         vec2 point = burin_shade_point(style, scales, i);
         if (k > 0 && shade.order * (point.x - last.x) < -1.0e-5f * style.reach) shade.folded = true;
@@ -250,15 +249,17 @@ BurinShade burin_shade_profile(BurinStyle style, vec2 scales, BurinBend bend, bo
         float least = 0.0f;
         for (int n = 0; n < BURIN_MAX_PROFILE_POINTS; ++n) {
             int j = bend.curvature == 0.0f ? rim : n;
-            if (j >= k || n > (bend.curvature == 0.0f ? 0 : k)) break;
+            if (j >= k) break;
             vec2 edge = burin_shade_point(style, scales, shade.order > 0.0f ? j : style.count - 1 - j);
             float from = shade.order * burin_clearance(bend, last, edge);
             float to = shade.order * burin_clearance(bend, point, edge);
             if (j == k - 1) from = 0.0f;
             hidden = max(hidden, to > 0.0f ? clamp(from / min(from - to, -1.0e-30f), 0.0f, 1.0f) : 1.0f);
-            if (to >= least) continue;
-            least = to;
-            shade.caster = burin_profile_point(style, shade.order > 0.0f ? j : style.count - 1 - j);
+            if (to < least) {
+                least = to;
+                shade.caster = burin_profile_point(style, shade.order > 0.0f ? j : style.count - 1 - j);
+            }
+            if (bend.curvature == 0.0f) break;
         }
         if (hidden < 1.0f) rim = k;
         if (k > 0) shade.hidden[shade.order > 0.0f ? k - 1 : i] = shadows ? hidden : 0.0f;
@@ -267,6 +268,7 @@ BurinShade burin_shade_profile(BurinStyle style, vec2 scales, BurinBend bend, bo
             shade.last = burin_profile_point(style, i);
         }
         last = point;
+        if (k + 1 >= style.count) break;
     }
     return shade;
 }
@@ -314,21 +316,17 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
     BurinShade shade = burin_shade_profile(style, stretch.scales, burin_bend(e, stretch, slope, light_slope), shadows);
     float order = dot(slope, stretch.normal) < 0.0f ? -1.0f : 1.0f;
     bool same = shade.order == order;
-    vec2 run = vec2(-1.0e30f, -1.0e30f);
     BurinRail first = burin_rail(e, style, stretch, footprint, slope, burin_profile_point(style, order > 0.0f ? 0 : style.count - 1));
     BurinRail last = first;
     BurinRail far = first;
-    for (int k = 0; k < BURIN_MAX_PROFILE_POINTS; ++k) {
-        if (k >= style.count) break;
+    vec2 run = first.way * order;
+    for (int k = 1; k < BURIN_MAX_PROFILE_POINTS; ++k) {
         int i = order > 0.0f ? k : style.count - 1 - k;
-        BurinRail next = first;
-        if (k > 0) {
-            next = burin_rail(e, style, stretch, footprint, slope, burin_profile_point(style, i));
-            vec2 seen = vec2(burin_hidden(run.x, last.way.x * order, next.way.x * order),
-                             burin_hidden(run.y, last.way.y * order, next.way.y * order));
-            if (min(seen.x, seen.y) < 1.0f && !shade.folded)
-                burin_add_facet(e, style, stretch, footprint.radius, last, next, seen, order, shade.hidden[order > 0.0f ? k - 1 : i], same, region);
-        }
+        BurinRail next = burin_rail(e, style, stretch, footprint, slope, burin_profile_point(style, i));
+        vec2 seen = vec2(burin_hidden(run.x, last.way.x * order, next.way.x * order),
+                         burin_hidden(run.y, last.way.y * order, next.way.y * order));
+        if (min(seen.x, seen.y) < 1.0f && !shade.folded)
+            burin_add_facet(e, style, stretch, footprint.radius, last, next, seen, order, shade.hidden[order > 0.0f ? k - 1 : i], same, region);
         if (next.way.x * order > run.x) {
             far.from = next.from;
             far.first = next.first;
@@ -341,6 +339,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
         }
         run = max(run, next.way * order);
         last = next;
+        if (k + 1 >= style.count) break;
     }
     uint mask = burin_strip_mask(first, far);
     vec2 whole = vec2(1.0f, 1.0f);

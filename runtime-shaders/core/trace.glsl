@@ -5,7 +5,7 @@
 // What one stretch of an element says about the first solid point.
 void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
                  BurinMark mark, BURIN_INOUT(BurinPass) pass) {
-    bool straight = piece.kind == BURIN_PIECE_LINEAR && piece.fixed_scale;
+    bool straight = burin_is_straight(piece);
     if (style.stepped) {
         // The overlap of the sides must not reach over the path line, where the run of cutting facets ends.
         qa.x = piece.side * max(qa.x * piece.side, 1.0e-6f);
@@ -49,7 +49,7 @@ void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ra
 
 // Stretches on which b' runs nearly straight, so that no crossing of the profile is passed over; 0: one that is straight.
 int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray) {
-    if (piece.kind == BURIN_PIECE_LINEAR && piece.fixed_scale) return 0;
+    if (burin_is_straight(piece)) return 0;
     float way = length(ray.slope) * (piece.hi - piece.lo);
     float bend = 0.0f;
     if (piece.kind == BURIN_PIECE_CURVE) bend = length(e.p0 - 2.0f * e.p1 + e.p2) * 2.0f / max(e.extent * e.extent, 1.0e-12f);
@@ -78,30 +78,31 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
     count = max(count, 1);
     float overlap = 4.0f * BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y) / style.reach;
     bool halved = piece.kind == BURIN_PIECE_CURVE && piece.side != 0.0f;
+    BurinSection section = burin_section(e, style, piece, ray, piece.lo);
     vec2 range = vec2(piece.lo, piece.lo);
     vec2 qa = vec2(0.0f, 0.0f);
-    vec2 qb = vec2(0.0f, 0.0f);
-    vec2 heights = vec2(1.0f, 1.0f);  // scales at both ends
-    for (int i = 0; i <= BURIN_MAX_WAVE_SEGMENTS + 1; ++i) {
-        if (i > count) break;
+    vec2 qb = section.q;
+    vec2 heights = vec2(1.0f, section.height);  // scales at both ends
+    for (int i = 1; i <= BURIN_MAX_WAVE_SEGMENTS + 1; ++i) {
         float to = i == count ? piece.hi : (i == above ? part : mix(part, piece.hi, float(i - above) / float(count - above)));
         if (i < above) to = mix(piece.lo, part, float(i) / float(above));
         range = vec2(range.y, to);
         qa = qb;
-        BurinSection section = burin_section(e, style, piece, ray, range.y);
+        section = burin_section(e, style, piece, ray, range.y);
         qb = section.q;
         heights = vec2(heights.y, section.height);
-        if (i == 0) continue;
         vec2 half_range = range;
         vec2 ha = qa;
         vec2 hb = qb;
+        bool acts = true;
+#if BURIN_CURVES != 0
         if (halved) {
             // The sides of a curve part where b changes sign; they overlap a little, as those of a line do.
             float middle = -piece.side * overlap;
             vec2 inside = (vec2(qa.x, qb.x) - vec2(middle, middle)) * piece.side;
             bool from_inside = inside.x >= 0.0f;
             bool to_inside = inside.y >= 0.0f;
-            if (!from_inside && !to_inside) continue;
+            acts = from_inside || to_inside;
             if (from_inside != to_inside) {
                 float t = burin_crossing(e, style, piece, ray, range, inside, vec2(middle, 0.0f),
                                          vec2(piece.side, 0.0f), false);
@@ -117,7 +118,10 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
                 }
             }
         }
-        burin_judge(e, style, piece, ray, half_range, ha, hb, mark, pass);
+#endif
+        if (acts) burin_judge(e, style, piece, ray, half_range, ha, hb, mark, pass);
+        // At the end, as everywhere here: see burin_events.
+        if (i >= count) break;
     }
 }
 
@@ -146,45 +150,80 @@ bool burin_passes_beyond(BurinElement e, vec2 a, vec2 b, float room) {
     return max(along.x, along.y) < min(middle, 0.0f) - room || min(along.x, along.y) > max(middle, e.extent) + room;
 }
 
-// Every part of one element over the stretch t0-t1 of equal ground.
-void burin_visit(uint reference, BurinRay ray, vec2 centre, bool stepped, vec2 stretch, float ground,
-                 BURIN_INOUT(BurinPass) pass) {
+// An element that a stretch of equal ground may meet.
+struct BurinCandidate {
+    uint reference;
+    BurinElement e;
+    BurinStyle style;
+    BurinEnd start;
+    BurinEnd end;
+    bool left;  // whether its sides belong to this ground
+    bool right;
+};
+
+// The element named by `reference`, and whether the stretch comes near it.
+bool burin_comes_near(uint reference, BurinRay ray, vec2 centre, bool stepped, vec2 stretch, float ground, BURIN_OUT(BurinCandidate) next) {
     BurinElement e = burin_element(reference, ray.origin, centre);
     BurinStyle style = burin_style(e.style);
     float same = BURIN_SAME_LEVEL * burin_map.depth;
-    bool left = abs(style.level - ground) < same;
-    bool right = abs(style.right_level - ground) < same;
-    if (!left && !right) return;
     if (stepped) e.slack = burin_clip_slack(e, style);
+    next.reference = reference;
+    next.e = e;
+    next.style = style;
+    next.start = burin_end(e, true);
+    next.end = burin_end(e, false);
+    next.left = abs(style.level - ground) < same;
+    next.right = abs(style.right_level - ground) < same;
+    if (!next.left && !next.right) return false;
     float pad = BURIN_SAME_DROP * burin_map.depth + 1.0e-5f * (stretch.y - stretch.x);
     vec2 from = ray.slope * (stretch.x - pad);
     vec2 to = ray.slope * (stretch.y + pad);
     float room = style.reach * burin_widest(e) * 1.001f + e.slack + BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y);
-    if (!e.curved && burin_passes_beside(e, from, to, room)) return;
-    BurinEnd start = burin_end(e, true);
-    BurinEnd end = burin_end(e, false);
-    float tip = max(burin_end_reach(start, room), burin_end_reach(end, room));
+    if (!e.curved && burin_passes_beside(e, from, to, room)) return false;
+    float tip = max(burin_end_reach(next.start, room), burin_end_reach(next.end, room));
     if (e.curved) tip = max(tip, room);
-    if (burin_passes_beyond(e, from, to, tip + room * 1.0e-3f)) return;
-    if (e.curved && burin_passes_beside(e, from, to, tip)) return;
+    if (burin_passes_beyond(e, from, to, tip + room * 1.0e-3f)) return false;
+    return !(e.curved && burin_passes_beside(e, from, to, tip));
+}
+
+// Every part of one element over the stretch.
+void burin_visit(BurinCandidate next, BurinRay ray, vec2 stretch, BURIN_INOUT(BurinPass) pass) {
+    float pad = BURIN_SAME_DROP * burin_map.depth + 1.0e-5f * (stretch.y - stretch.x);
+    BurinElement e = next.e;
     BurinPiece whole = burin_whole(e, stretch.x - pad, stretch.y + pad);
-    bool plain = left && right && burin_leaves_alone(whole, ray, start) && burin_leaves_alone(whole, ray, end);
+    bool plain = next.left && next.right && burin_leaves_alone(whole, ray, next.start) && burin_leaves_alone(whole, ray, next.end);
     BurinMark mark;
-    mark.element = reference;
+    mark.element = next.reference;
     mark.facet = BURIN_FACET_WALL;
     mark.wall = vec2(0.0f, 0.0f);
-    uint parts = plain ? 1u : burin_parts_of(start, end, left, right, e.curved);
+    uint parts = plain ? 1u : burin_parts_of(next.start, next.end, next.left, next.right, e.curved);
     for (int n = 0; n < 2 * BURIN_PARTS; ++n) {
-        if (parts == 0u) break;
         int i = burin_lowest_bit(parts);
         parts = parts & (parts - 1u);
         mark.part = i / 2;
         mark.side = plain ? 0.0f : (i % 2 == 0 ? -1.0f : 1.0f);
         BurinPiece piece = whole;
-        if (!plain) piece = burin_part(e, start, end, ray, whole, mark.part, mark.side);
-        if (piece.hi <= piece.lo) continue;
-        piece = burin_formula(e, piece, mark.part);
-        burin_visit_piece(e, style, piece, ray, mark, pass);
+        if (!plain) piece = burin_part(e, next.start, next.end, ray, whole, mark.part, mark.side);
+        if (piece.hi > piece.lo) burin_visit_piece(e, next.style, burin_formula(e, piece, mark.part), ray, mark, pass);
+        if (parts == 0u) break;
+    }
+}
+
+// Every element of a cell's list. Most are passed by, and are looked through before the next one is visited.
+void burin_visit_all(BurinCell cell, BurinRay ray, vec2 centre, vec2 stretch, float ground, BURIN_INOUT(BurinPass) pass) {
+    uvec4 texel = uvec4(0u, 0u, 0u, 0u);
+    BurinCandidate next;
+    int i = 0;
+    for (int n = 0; n < BURIN_MAX_REFS_PER_CELL; ++n) {
+        bool near = false;
+        for (int k = 0; k < BURIN_MAX_REFS_PER_CELL; ++k) {
+            if (near || i >= cell.count) break;
+            near = burin_comes_near(burin_listed(cell, i, texel), ray, centre, cell.stepped, stretch, ground, next);
+            ++i;
+            if (near || i >= cell.count) break;
+        }
+        if (near) burin_visit(next, ray, stretch, pass);
+        if (i >= cell.count) break;
     }
 }
 
@@ -205,12 +244,7 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
         pass.reopen = 1.0e30f;
         pass.add_mark = hit.mark;
         pass.air_mark = hit.mark;
-        uvec4 texel = uvec4(0u, 0u, 0u, 0u);
-        bool stepped = (cell.flags & BURIN_CELL_FLAG_STEP) != 0u;
-        for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
-            if (i >= cell.count) break;
-            burin_visit(burin_listed(cell, i, texel), hit.ray, hit.centre, stepped, stretch, ground, pass);
-        }
+        burin_visit_all(cell, hit.ray, hit.centre, stretch, ground, pass);
         if (pass.add < pass.ground) {
             at_add = true;
             add = pass.add;
@@ -242,37 +276,34 @@ bool burin_trace_stretch(BurinCell cell, vec2 stretch, float ground, BURIN_INOUT
 
 // First solid point of the ray between two drops inside one cell.
 bool burin_trace_cell(BurinCell cell, vec2 range, BURIN_INOUT(BurinHit) hit) {
-    bool stepped = (cell.flags & BURIN_CELL_FLAG_STEP) != 0u;
+#if BURIN_STEPS == 0
+    return burin_trace_stretch(cell, range, cell.level, hit);
+#else
     float ground = cell.level;
     vec2 a = hit.ray.slope * range.x;
     vec2 b = hit.ray.slope * range.y;
+    if (cell.stepped) {
+        vec2 start = (hit.centre + cell.start / vec2(burin_map.cells)) * burin_map.size - hit.ray.origin;
+        ground = burin_step_line(cell, hit.ray, hit.centre, start, a, -1.0f, true).level;
+    }
     float after = -1.0f;
     float from = range.x;
-    for (int n = 0; n <= BURIN_MAX_GROUND_CHANGES; ++n) {
-        BurinStepLine line;
-        line.at = 2.0f;
-        line.level = ground;
-        line.mark = hit.mark;
-        if (stepped) {
-            vec2 start = (hit.centre + cell.start / vec2(burin_map.cells)) * burin_map.size - hit.ray.origin;
-            bool first = n == 0;
-            line = burin_step_line(cell, hit.ray, hit.centre, first ? start : a, first ? a : b, after, first);
-            if (first) {
-                ground = line.level;
-                continue;
-            }
-        }
-        float to = line.at > 1.0f ? range.y : mix(range.x, range.y, max(line.at, 0.0f));
-        if (to > from || line.at > 1.0f) {
+    for (int n = 0; n < BURIN_MAX_GROUND_CHANGES; ++n) {
+        BurinStepLine line = burin_no_step_line(cell, false);
+        if (cell.stepped) line = burin_step_line(cell, hit.ray, hit.centre, a, b, after, false);
+        bool last = line.at > 1.0f;
+        float to = last ? range.y : mix(range.x, range.y, max(line.at, 0.0f));
+        if (to > from || last) {
             if (burin_trace_stretch(cell, vec2(from, to), ground, hit)) return true;
         }
-        if (line.at > 1.0f) return false;
+        if (last) return false;
         after = line.at;
         from = to;
         ground = line.level;
         hit.mark = line.mark;
     }
     return false;
+#endif
 }
 
 // Drop where the ray leaves the box low-high, along `axis` (0 or 1).
@@ -352,60 +383,114 @@ ivec2 burin_next_cell(ivec2 index, int skip, int axis, float t, BURIN_INOUT(Buri
     return next - tile * burin_map.cells;
 }
 
+// A ray on its way from cell to cell.
+struct BurinWalk {
+    BurinHit hit;
+    bool ended;   // `hit` is the answer
+    float t;      // drop where it enters the cell
+    float t1;     // and where it ends
+    float leave;  // drop where it leaves the cell, across `axis`
+    int axis;
+    ivec2 index;
+    bool outside;  // of a map that does not repeat
+    BurinCell cell;
+    vec2 range;  // drops between which there is something to meet in the cell; below them all is solid
+    int cells;   // so far
+};
+
+void burin_end_walk(bool met, float t, BURIN_INOUT(BurinWalk) walk) {
+    walk.ended = true;
+    walk.hit.met = met;
+    walk.hit.t = t;
+}
+
+// Looks at the cell that the walk has come to, or brings it to the map.
+void burin_enter_cell(BURIN_INOUT(BurinWalk) walk) {
+    if (walk.outside) {
+        bool ends = burin_trace_outside(walk.hit, walk.t);
+        if ((ends ? walk.hit.t : walk.t) > walk.t1) burin_end_walk(false, walk.t1, walk);
+        else if (ends) burin_end_walk(true, walk.hit.t, walk);
+        walk.index = burin_cell_at(walk.hit.ray.origin + walk.hit.ray.slope * walk.t);
+    }
+    if (walk.ended) return;
+    BurinCell cell = burin_cell(walk.index);
+    vec2 cell_size = burin_map.size / vec2(burin_map.cells);
+    vec2 low = vec2(walk.index - ivec2(cell.skip, cell.skip)) * cell_size;
+    vec2 high = vec2(walk.index + ivec2(cell.skip + 1, cell.skip + 1)) * cell_size;
+    walk.cell = cell;
+    walk.leave = max(burin_leave(walk.hit.ray, low, high, walk.axis), walk.t);
+    // Above the cell's highest surface there is nothing to meet; below its lowest one all is solid.
+    float bottom = max(cell.lowest + BURIN_SAME_DROP * burin_map.depth, walk.t);
+    walk.range = vec2(walk.t, min(min(walk.leave, walk.t1), bottom));
+    walk.range.x = max(walk.range.x, min(cell.highest, walk.range.y));
+    walk.hit.centre = (vec2(walk.index) + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
+}
+
+// Whether the ray comes below the cell's highest surface in it.
+bool burin_may_meet(BurinWalk walk) {
+    return walk.leave > walk.cell.highest || walk.t1 <= walk.leave;
+}
+
+// On to the next cell, if nothing was met in this one.
+void burin_leave_cell(BURIN_INOUT(BurinWalk) walk) {
+    if (burin_may_meet(walk) && walk.range.y < min(walk.leave, walk.t1)) {
+        burin_end_walk(true, walk.range.y, walk);
+    } else if (walk.leave >= walk.t1) {
+        burin_end_walk(false, walk.t1, walk);
+    } else {
+        walk.t = walk.leave;
+        walk.index = burin_next_cell(walk.index, walk.cell.skip, walk.axis, walk.t, walk.hit);
+        walk.outside = burin_map.repeats == 0 && (walk.index.x < 0 || walk.index.y < 0 || walk.index.x >= burin_map.cells.x ||
+                                                  walk.index.y >= burin_map.cells.y);
+    }
+}
+
+// To the next cell whose list must be asked, over those that list nothing, whose ground may be met.
+void burin_walk_to_list(BURIN_INOUT(BurinWalk) walk) {
+    for (int n = 0; n < BURIN_MAX_CELLS_PER_RAY; ++n) {
+        if (walk.ended) break;
+        burin_enter_cell(walk);
+        if (walk.ended) break;
+        bool asked = burin_may_meet(walk);
+        if ((asked && walk.cell.count > 0) || ++walk.cells >= BURIN_MAX_CELLS_PER_RAY) break;
+        float ground = max(walk.range.x, walk.cell.level);
+        if (asked && ground < walk.range.y) {
+            if (walk.cell.level >= walk.range.x - BURIN_SAME_DROP * burin_map.depth) {
+                walk.hit.mark.element = BURIN_NO_ELEMENT;
+                walk.hit.mark.facet = BURIN_FACET_GROUND;
+            }
+            burin_end_walk(true, ground, walk);
+        } else {
+            burin_leave_cell(walk);
+        }
+        if (walk.ended) break;
+    }
+}
+
 // Follows the ray from drop t0 until it meets the surface or has fallen to t1. At the lowest point there is always surface.
 BurinHit burin_trace(BurinRay start, float t0, float t1) {
     // Ground that lies there is met before the ray ends.
     if (t1 >= burin_map.depth) t1 = burin_map.depth * (1.0f + 4.0f * BURIN_SAME_DROP);
-    BurinHit hit = burin_begin(start, t1);
     vec2 size = burin_map.size;
     vec2 p = start.origin + start.slope * t0;
     bool repeats = burin_map.repeats != 0;
-    if (repeats) {
-        vec2 tile = floor(p / size) * size;
-        hit.ray.origin = hit.ray.origin - tile;
-        p = p - tile;
-    }
-    float t = t0;
-    bool outside = !repeats && (p.x < 0.0f || p.y < 0.0f || p.x > size.x || p.y > size.y);
-    ivec2 index = burin_cell_at(p);
+    vec2 tile = repeats ? floor(p / size) * size : vec2(0.0f, 0.0f);
+    BurinWalk walk;
+    walk.hit = burin_begin(start, t1);
+    walk.hit.ray.origin = start.origin - tile;
+    p = p - tile;
+    walk.ended = false;
+    walk.t = t0;
+    walk.t1 = t1;
+    walk.outside = !repeats && (p.x < 0.0f || p.y < 0.0f || p.x > size.x || p.y > size.y);
+    walk.index = burin_cell_at(p);
+    walk.cells = 0;
     for (int n = 0; n < BURIN_MAX_CELLS_PER_RAY; ++n) {
-        if (outside) {
-            bool ends = burin_trace_outside(hit, t);
-            if ((ends ? hit.t : t) > t1) {
-                hit.met = false;
-                hit.t = t1;
-                return hit;
-            }
-            if (ends) break;
-            index = burin_cell_at(hit.ray.origin + hit.ray.slope * t);
-        }
-        BurinCell cell = burin_cell(index);
-        hit.centre = (vec2(index) + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
-        int axis;
-        vec2 cell_size = size / vec2(burin_map.cells);
-        vec2 low = vec2(index - ivec2(cell.skip, cell.skip)) * cell_size;
-        vec2 high = vec2(index + ivec2(cell.skip + 1, cell.skip + 1)) * cell_size;
-        float leave = max(burin_leave(hit.ray, low, high, axis), t);
-        float until = min(leave, t1);
-        // Above the cell's highest surface there is nothing to meet; below its lowest one all is solid.
-        float bottom = max(cell.lowest + BURIN_SAME_DROP * burin_map.depth, t);
-        vec2 range = vec2(t, min(until, bottom));
-        range.x = max(range.x, min(cell.highest, range.y));
-        if (leave > cell.highest || t1 <= leave) {
-            if (burin_trace_cell(cell, range, hit)) return hit;
-            if (range.y < until) {
-                hit.t = range.y;
-                return hit;
-            }
-        }
-        if (leave >= t1) {
-            hit.met = false;
-            hit.t = t1;
-            return hit;
-        }
-        t = leave;
-        index = burin_next_cell(index, cell.skip, axis, t, hit);
-        outside = !repeats && (index.x < 0 || index.y < 0 || index.x >= burin_map.cells.x || index.y >= burin_map.cells.y);
+        burin_walk_to_list(walk);
+        if (walk.ended || ++walk.cells > BURIN_MAX_CELLS_PER_RAY) break;
+        if (burin_trace_cell(walk.cell, walk.range, walk.hit)) walk.ended = true;
+        else burin_leave_cell(walk);
+        if (walk.ended) break;
     }
-    return hit;
+    return walk.hit;
 }

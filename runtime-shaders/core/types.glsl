@@ -12,6 +12,21 @@
 #ifndef BURIN_FUNCTION_KINDS
 #define BURIN_FUNCTION_KINDS 7
 #endif
+// The same of quadratics, of anything beside which a straight ray has a bent section (those, tapers, functions, round joins
+// and caps), and of steps: 0 where the textures hold none.
+#ifndef BURIN_CURVES
+#define BURIN_CURVES 1
+#endif
+#ifndef BURIN_BENDS
+#define BURIN_BENDS 1
+#endif
+#ifndef BURIN_STEPS
+#define BURIN_STEPS 1
+#endif
+// Whether any mesh is round: 0 where all second derivatives are zero.
+#ifndef BURIN_ROUND
+#define BURIN_ROUND 1
+#endif
 
 struct BurinMap {
     vec2 size;          // metres per uv unit
@@ -53,6 +68,7 @@ struct BurinCell {
     int skip;  // cells around it, in every direction, that are as empty as it is
     vec2 start;  // where the walk to a point of the cell begins, in cell sides from the centre
     uint flags;
+    bool stepped;
     float level;    // drop of the ground at the start
     float highest;  // drop that no surface of the cell lies above
     float lowest;   // drop that no surface of the cell lies below

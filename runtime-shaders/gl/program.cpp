@@ -5,6 +5,7 @@
 
 #include "cpp/drop_range.hpp"
 #include "cpp/prefilter.hpp"
+#include "gl/pixel_filter.h"
 #include "gl/shader_text.hpp"
 
 namespace burin::gl {
@@ -102,21 +103,13 @@ GLuint make_prefilter(const Functions& gl, const Prefilter& filter, bool repeat)
 
 }  // namespace
 
-int function_kinds(const PackedTextures& textures) {
-    int kinds = 0;
-    for (std::uint32_t at = 0; at < textures.sections.function_texels;) {
-        const Texel head = data_texel(textures, textures.sections.functions_begin() + at);
-        kinds |= 1 << (head[0] & 3u);
-        at += function_texel_count(head);
-    }
-    return kinds & 7;
-}
-
 std::string fragment_text(const ProgramKind& kind) {
     const Stage stage = kind.stage;
     std::string text = kVersion;
     if (stage == Stage::surface_with_depth) text += "#define BURIN_CORRECT_DEPTH\n";
-    text += "#define BURIN_FUNCTION_KINDS " + std::to_string(kind.function_kinds) + "\n";
+    text += "#define PIXEL_FILTER " + std::to_string(kind.pixel_filter) + "\n";
+    text += kinds_text(kind.pattern);
+    text += kind.round ? "#define BURIN_ROUND 1\n" : "#define BURIN_ROUND 0\n";
     text += "#define BURIN_TEXTURES " + std::to_string(kind.textures) + "\n";
     text += kind.environment ? "#define BURIN_ENVIRONMENT\n" : "#define BURIN_NOOKS 0\n";
     text += kind.charts ? "#define BURIN_CHARTS 1\n" : "#define BURIN_CHARTS 0\n";
@@ -129,11 +122,13 @@ std::string fragment_text(const ProgramKind& kind) {
         text += part;
     if (stage == Stage::rays) return text + shader_text::rays_frag;
     if (stage == Stage::top) return text + shader_text::top_frag;
-    for (const char* part : {shader_text::curved, shader_text::frame, shader_text::material,
-                             kind.environment ? shader_text::environment : "", shader_text::shade, shader_text::footprint, shader_text::stripe,
-                             shader_text::region, shader_text::far, shader_text::far_fetch, shader_text::pixel_filter, shader_text::surface_frag})
+    for (const char* part : {shader_text::pixel_filter, shader_text::curved, shader_text::frame, shader_text::material,
+                             kind.environment ? shader_text::environment : "", shader_text::shade})
         text += part;
-    return text;
+    if (kind.pixel_filter != FILTER_RAYS)
+        for (const char* part : {shader_text::footprint, shader_text::stripe, shader_text::region, shader_text::far, shader_text::far_fetch})
+            text += part;
+    return text + shader_text::surface_frag;
 }
 
 Result<Program> Program::build(const Functions& gl, const ProgramKind& kind) {

@@ -11,25 +11,25 @@
 
 #include "cpp/prefilter.hpp"
 #include "gl/context.hpp"
+#include "gl/pattern_kinds.hpp"
 
 namespace burin::gl {
 
 // Which fragment shader of this folder a program ends in.
 enum class Stage { rays, top, surface, surface_with_depth };  // the last writes the depth of what is met
 
-// Kinds of functions along paths that the textures hold, for BURIN_FUNCTION_KINDS of core/types.glsl.
-int function_kinds(const PackedTextures& textures);
-
 // What a program is made for.
 struct ProgramKind {
     Stage stage = Stage::surface;
-    int function_kinds = 7;    // of the textures that it will draw
+    PatternKinds pattern;      // of the textures that it will draw
+    int pixel_filter = 0;      // surfaces only: FILTER_* of gl/pixel_filter.h
     bool environment = false;  // surfaces only: lit by one, instead of a soft surround
     int textures = 0;          // surfaces only: which ones materials have, for BURIN_TEXTURES of gl/material.glsl
+    bool round = false;        // surfaces only: some mesh bends
     bool charts = false;       // surfaces only: texture coordinates are cut
 };
 
-// Text of a fragment shader as the driver gets it: version, kinds of functions, layout.h, core, bindings, main.
+// Text of a fragment shader as the driver gets it: version, macros, layout.h, core, bindings, main.
 std::string fragment_text(const ProgramKind& kind);
 
 class Program {

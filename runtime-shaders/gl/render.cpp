@@ -285,14 +285,22 @@ Scene load_scene(const gl::Functions& gl, const Asset& asset, const RenderOption
     return scene;
 }
 
-gl::ProgramKind program_for(const Asset& asset, const RenderOptions& options) {
+bool is_round(const Primitive& primitive) {
+    constexpr std::array<float, 3> kNone{};
+    return std::any_of(primitive.frames.begin(), primitive.frames.end(), [&](const SurfaceFrame& frame) {
+        return frame.duu != kNone || frame.duv != kNone || frame.dvv != kNone;
+    });
+}
+
+gl::ProgramKind program_for(const Asset& asset, const RenderOptions& options, int pixel_filter) {
     gl::ProgramKind kind;
+    kind.pixel_filter = pixel_filter;
     kind.stage = options.correct_depth ? gl::Stage::surface_with_depth : gl::Stage::surface;
-    kind.function_kinds = 0;
     kind.environment = options.environment.has_value();
     kind.textures = gl::texture_kinds(asset);
+    kind.round = std::any_of(asset.primitives.begin(), asset.primitives.end(), is_round);
     for (const MaterialInfo& material : asset.materials) {
-        if (material.has_detail) kind.function_kinds |= gl::function_kinds(material.textures);
+        if (material.has_detail) kind.pattern = gl::join_kinds(kind.pattern, gl::kinds_of(material.textures));
         kind.charts = kind.charts || !material.charts.empty();
     }
     return kind;
@@ -400,12 +408,17 @@ class Accumulator {
     std::vector<std::uint8_t> wanted_;  // 255 or 0 per pixel, lower row first
 };
 
-// Places of the samples within a pixel, -0.5 to 0.5: a grid of side x side, in an order whose first four
-// spread.
-std::vector<Vec2> sample_places(int side) {
+// A grid of side x side places within a pixel, -0.5 to 0.5.
+std::vector<Vec2> ray_places(int side) {
     std::vector<Vec2> places;
     for (int k = 0; k < side * side; ++k)
         places.push_back({(k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5});
+    return places;
+}
+
+// The same in an order whose first four spread.
+std::vector<Vec2> sample_places(int side) {
+    std::vector<Vec2> places = ray_places(side);
     for (std::size_t i = 0; i < 4 && places.size() > 4; ++i) {
         // Corners of a square turned by about 27 degrees.
         const double turn = 0.4636 + 1.5708 * double(i);
@@ -439,51 +452,87 @@ class WantedTexture {
     GLuint name_ = 0;
 };
 
-void set_filter(const gl::Program& program, int filter, int side = 1) {
-    program.set("pixel_filter", filter);
-    program.set("side", side);
-}
-
 // Rays per side of a pixel: an even number, so that they fall into quarters.
 int ray_side(const RenderOptions& options) { return 2 * int(std::ceil(std::sqrt(double(options.rays)) / 2.0 - 1e-9)); }
 
-// Adds the rays that `pixels` asks for in its fourth channel.
-void add_marked_rays(const gl::Functions& gl, const gl::Program& program, const Asset& asset, const Scene& scene,
-                     const gl::FloatTarget& target, const WantedTexture& wanted, const RenderOptions& options,
-                     std::vector<float>& pixels) {
-    std::vector<std::uint8_t> marks(pixels.size() / 4);
-    for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = std::uint8_t(pixels[4 * i + 3]);
-    if (std::all_of(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark == 0; })) return;
-    wanted.set(marks, options.width, options.height);
-    set_filter(program, FILTER_QUARTERS);
-    const int side = ray_side(options);
-    for (int k = 0; k < side * side; ++k) {
-        const double x = (k % side + 0.5) / side - 0.5, y = (k / side + 0.5) / side - 0.5;
-        program.set("ray_place", float(x), float(y));
-        draw_pass(gl, program, asset, scene);
-        const std::vector<float> found = target.read(0);
-        const int quarter = (x < 0.0 ? 0 : 1) + (y < 0.0 ? 0 : 2);
-        for (std::size_t i = 0; i < marks.size(); ++i)
-            if ((marks[i] >> quarter & 1) != 0)
-                for (std::size_t c = 0; c < 3; ++c) pixels[4 * i + c] += found[4 * i + c] / float(side * side);
-    }
-}
+// Draws samples of one picture: all in one run of a shader, or areas and rays in runs of two.
+class Painter {
+  public:
+    // All must outlive it. `pixel_part`: side of what a sample is filtered over, in pixels.
+    Painter(const gl::Functions& gl, const Asset& asset, const RenderOptions& options, const gl::FloatTarget& target, float pixel_part)
+        : gl_(gl), asset_(asset), options_(options), target_(target), pixel_part_(pixel_part),
+          scene_(load_scene(gl, asset, options)), view_(place_camera(asset, options)), wanted_(gl) {}
 
-// One picture of the whole, filtered over the part of the pixel that a sample stands for.
-std::vector<float> draw_sample(const gl::Functions& gl, const gl::Program& program, const Asset& asset, const Scene& scene,
-                               const gl::FloatTarget& target, const WantedTexture& wanted,
-                               const RenderOptions& options) {
-    const bool regions = options.antialiasing == Antialiasing::regions;
-    const bool marked = regions && !options.one_run;
-    if (regions)
-        set_filter(program, marked ? FILTER_MARKED : FILTER_REGIONS, ray_side(options));
-    else
-        set_filter(program, FILTER_RAYS);
-    draw_pass(gl, program, asset, scene);
-    std::vector<float> pixels = target.read(0);
-    if (marked) add_marked_rays(gl, program, asset, scene, target, wanted, options, pixels);
-    return pixels;
-}
+    // Linear colours of the pixels that are wanted, lower row first; `place` within the pixel.
+    Result<std::vector<float>> draw_sample(Vec2 place, const std::vector<std::uint8_t>& wanted) {
+        matrix_ = projection(view_, options_, place.x, place.y);
+        const bool regions = options_.antialiasing == Antialiasing::regions;
+        const bool marked = regions && !options_.one_run;
+        const int filter = marked ? FILTER_MARKED : regions ? FILTER_REGIONS : FILTER_RAYS;
+        auto drawn = draw(filter, {}, wanted);
+        if (!drawn || !marked) return drawn;
+        if (Status added = add_marked_rays(*drawn); !added) return added.error();
+        return drawn;
+    }
+
+  private:
+    // A program is built when first asked for: many pictures want no rays.
+    Result<const gl::Program*> program(int filter) {
+        auto& built = programs_[std::size_t(filter)];
+        if (built) return &*built;
+        auto program = gl::Program::build(gl_, program_for(asset_, options_, filter));
+        if (!program) return program.error();
+        built.emplace(std::move(*program));
+        built->use();
+        set_view(*built, view_, options_);
+        if (options_.environment)
+            scene_.environment->bind(*built, options_.environment->rotation, options_.environment->strength);
+        built->set("side", ray_side(options_));
+        built->set("pixel_part", pixel_part_);
+        built->set("wanted", 2);
+        return &*built;
+    }
+
+    Result<std::vector<float>> draw(int filter, Vec2 ray_place, const std::vector<std::uint8_t>& wanted) {
+        const auto chosen = program(filter);
+        if (!chosen) return chosen.error();
+        const gl::Program& program = **chosen;
+        program.use();
+        wanted_.set(wanted, options_.width, options_.height);
+        gl_.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix_));
+        program.set("ray_place", float(ray_place.x), float(ray_place.y));
+        draw_pass(gl_, program, asset_, scene_);
+        return target_.read(0);
+    }
+
+    // Adds the rays that `pixels` asks for in its fourth channel.
+    Status add_marked_rays(std::vector<float>& pixels) {
+        std::vector<std::uint8_t> marks(pixels.size() / 4);
+        for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = std::uint8_t(pixels[4 * i + 3]);
+        if (std::all_of(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark == 0; })) return Done{};
+        for (const Vec2 place : ray_places(ray_side(options_))) {
+            const auto found = draw(FILTER_RAYS, place, marks);
+            if (!found) return found.error();
+            const int quarter = (place.x < 0.0 ? 0 : 1) + (place.y < 0.0 ? 0 : 2);
+            const float share = 1.0f / float(ray_side(options_) * ray_side(options_));
+            for (std::size_t i = 0; i < marks.size(); ++i)
+                if ((marks[i] >> quarter & 1) != 0)
+                    for (std::size_t c = 0; c < 3; ++c) pixels[4 * i + c] += (*found)[4 * i + c] * share;
+        }
+        return Done{};
+    }
+
+    const gl::Functions& gl_;
+    const Asset& asset_;
+    const RenderOptions& options_;
+    const gl::FloatTarget& target_;
+    float pixel_part_;
+    Scene scene_;
+    View view_;
+    WantedTexture wanted_;
+    glm::mat4 matrix_{1.0f};
+    std::array<std::optional<gl::Program>, 3> programs_;  // by FILTER_*
+};
 
 Status check(const Asset& asset, const RenderOptions& options) {
     const Camera& camera = options.camera;
@@ -510,38 +559,21 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     auto context = gl::open_context(options.backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
-    auto program = gl::Program::build(gl, program_for(asset, options));
-    if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
     if (!target) return target.error();
-    const Scene scene = load_scene(gl, asset, options);
-    const View view = place_camera(asset, options);
-    program->use();
-    set_view(*program, view, options);
-    if (options.environment) scene.environment->bind(*program, options.environment->rotation, options.environment->strength);
     gl.Enable(GL_DEPTH_TEST);
     gl.CullFace(GL_BACK);
     gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]),
                   to_linear(options.background[2]), 0.0f);
     (*target)->bind();
     const std::vector<Vec2> places = sample_places(int(std::ceil(std::sqrt(double(options.samples)) - 1e-9)));
+    Painter painter(gl, asset, options, **target, float(1.0 / std::round(std::sqrt(double(places.size())))));
     Accumulator sums(options.width, options.height);
-    const WantedTexture wanted(gl);
-    wanted.set(sums.wanted(), options.width, options.height);
-    const int side = int(std::round(std::sqrt(double(places.size()))));
-    program->set("pixel_part", 1.0f / float(side));
-    program->set("wanted", 2);
-    program->set("everywhere", 1);
     for (std::size_t k = 0; k < places.size(); ++k) {
-        if (k == 4) {
-            sums.keep_uneven();
-            wanted.set(sums.wanted(), options.width, options.height);
-            program->set("everywhere", 0);
-        }
-        const glm::mat4 matrix = projection(view, options, places[k].x, places[k].y);
-        gl.UniformMatrix4fv(program->at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix));
-        sums.add(draw_sample(gl, *program, asset, scene, **target, wanted, options));
-        wanted.set(sums.wanted(), options.width, options.height);
+        if (k == 4) sums.keep_uneven();
+        const auto drawn = painter.draw_sample(places[k], sums.wanted());
+        if (!drawn) return drawn.error();
+        sums.add(*drawn);
     }
     return sums.image();
 }

@@ -57,7 +57,7 @@ Result<Image> render_top(const Asset& asset, int width, int height, const TopOpt
     auto context = gl::open_context(options.backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
-    auto program = gl::Program::build(gl, {gl::Stage::top, gl::function_kinds(material.textures)});
+    auto program = gl::Program::build(gl, {gl::Stage::top, gl::kinds_of(material.textures)});
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, kTile, kTile, 1, false);
     if (!target) return target.error();
@@ -86,7 +86,7 @@ Result<std::vector<ShadedHit>> shade_rays(const PackedTextures& packed, const Pa
     auto context = gl::open_context(backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
-    auto program = gl::Program::build(gl, {gl::Stage::rays, gl::function_kinds(packed)});
+    auto program = gl::Program::build(gl, {gl::Stage::rays, gl::kinds_of(packed)});
     if (!program) return program.error();
     auto target = gl::FloatTarget::create(gl, kTile, kTile, 2, false);
     if (!target) return target.error();

@@ -4,12 +4,10 @@ uniform vec3 eye;           // of a perspective camera
 uniform vec3 view;          // direction of an orthographic one; zero for perspective
 uniform int has_detail;
 uniform int shadows;
-uniform int pixel_filter;   // pixel_filter.h
-uniform int side;           // rays per side of the pixel, 1 to 4
-uniform vec2 ray_place;     // within the pixel, -0.5 to 0.5
+uniform int side;           // rays per side of the pixel: even, 2 to 8
+uniform vec2 ray_place;     // of FILTER_RAYS, within the pixel, -0.5 to 0.5
 uniform float pixel_part;   // side of what is filtered, in pixels: below 1 where several pictures are averaged
-uniform highp sampler2D wanted;  // one texel per pixel: 0 where the picture needs no further sample
-uniform int everywhere;          // 1: all pixels are drawn
+uniform highp sampler2D wanted;  // one texel per pixel, a bit per quarter: 0 where the picture needs no further sample
 layout(location = 0) out vec4 color;
 
 vec2 uv_along_x;
@@ -75,19 +73,21 @@ BurinSight way_to_light(BurinRay ray, BurinFound found, float before) {
     return burin_light_sight(bend, shadow, before, found, bend_start, ray.origin, eye_direction, to_pattern * light);
 }
 
-// What one ray meets, shadow included; w: 0 where it leaves the object beside its outline. The eye's way and the light's are two
-// turns of a loop, since drivers copy the whole decoder to every place that calls it.
-vec4 point_color(BurinRay ray) {
+// What one ray meets, shadow included; w: 0 where it leaves the object beside its outline. `way`: metres to there. The eye's way
+// and the light's are two turns of a loop, since drivers copy the whole decoder to every place that calls it.
+vec4 point_color(BurinRay ray, BURIN_OUT(float) way) {
     BurinSight sight = burin_eye_sight(bend, bend_start, ray, eye_direction, chart);
     BurinFacet facet;
     bool met = false;
-    for (int way = 0; way < 2; ++way) {
+    way = 0.0;
+    for (int turn = 0; turn < 2; ++turn) {
         BurinFound found = burin_trace_sight(bend, bend_start, sight);
-        if (way == 1) {
+        if (turn == 1) {
             if (found.hit.met) facet.lit = 0.0;
             break;
         }
         met = found.hit.met;
+        way = found.way;
         if (!met) break;
         facet = facet_of(ray, found);
         float before = found.drop - 4.0e-3 * burin_map.depth;
@@ -97,21 +97,7 @@ vec4 point_color(BurinRay ray) {
     return met ? vec4(burin_facet_color(facet), 1.0) : vec4(0.0);
 }
 
-// Mean of side x side rays over a part of the pixel; along_x and along_y are that part's sides. w: part of them that meet
-// something; the colour is the mean of those.
-vec4 sampled_color(BurinRay ray, vec2 along_x, vec2 along_y, int side) {
-    vec4 sum = vec4(0.0);
-    look_x = along_x / float(side);
-    look_y = along_y / float(side);
-    for (int k = 0; k < 16; ++k) {
-        if (k >= side * side) break;
-        vec2 at = (vec2(float(k % side), float(k / side)) + 0.5) / float(side) - 0.5;
-        BurinRay sample_ray = ray;
-        sample_ray.origin = ray.origin + along_x * at.x + along_y * at.y;
-        sum += point_color(sample_ray);
-    }
-    return vec4(sum.rgb / max(sum.w, 1.0), sum.w / float(side * side));
-}
+#if PIXEL_FILTER != FILTER_RAYS
 
 // A pixel, or a quarter of one.
 struct Part {
@@ -166,9 +152,87 @@ Areas areas_of(Part part) {
     return areas;
 }
 
+// Bits of the parts that rays should be asked of: 1 << 0 for the whole, 1 << 1 to 1 << 4 for its quarters. The others add to `sum`
+// and to the number of `parts`. `drop`: where the straight ray meets the true one.
+uint sum_areas(BurinRay straight, float drop, vec2 along_x, vec2 along_y, BURIN_INOUT(vec3) sum, BURIN_INOUT(float) parts) {
+    uint special = 0u;
+    stand_at(straight.origin + straight.slope * drop - bend_start, drop);
+    for (int i = 0; i <= 4; ++i) {
+        Areas said = areas_of(part_of(straight, along_x, along_y, i));
+        // The whole pixel at once where its features do not meet; else its quarters.
+        bool done = i == 0 && (said.far || !said.special);
+        if (i > 0 && said.special) special = special | (1u << uint(i));
+        if (done || (i > 0 && !said.special)) {
+            sum += said.color;
+            parts += 1.0;
+        }
+        if (done || i == 4) break;
+    }
+    return special;
+}
+
+#endif
+
+#if PIXEL_FILTER == FILTER_REGIONS
+
+// Adds the mean colours of the parts asked for, by count x count rays each: one loop over the rays of them all.
+void sum_rays(BurinRay ray, vec2 along_x, vec2 along_y, uint asked, int count, BURIN_INOUT(vec3) sum, BURIN_INOUT(float) parts) {
+    vec4 met = vec4(0.0);
+    int k = 0;
+    for (int n = 0; n < 64; ++n) {
+        if (asked == 0u) break;
+        Part part = part_of(ray, along_x, along_y, burin_lowest_bit(asked));
+        look_x = part.along_x / float(count);
+        look_y = part.along_y / float(count);
+        vec2 at = (vec2(float(k % count), float(k / count)) + 0.5) / float(count) - 0.5;
+        BurinRay sample_ray = part.ray;
+        sample_ray.origin = part.ray.origin + part.along_x * at.x + part.along_y * at.y;
+        float way;
+        met += point_color(sample_ray, way);
+        ++k;
+        if (k == count * count) {
+            sum += met.rgb / max(met.w, 1.0);
+            parts += met.w > 0.0 ? 1.0 : 0.0;
+            met = vec4(0.0);
+            k = 0;
+            asked = asked & (asked - 1u);
+        }
+        if (asked == 0u) break;
+    }
+}
+
+#endif
+
+// Colour of the pixel, from the ray through its middle; w: 0 where nothing is met. `marks`: quarters that still want rays.
+vec4 pixel_color(BurinRay ray, BURIN_OUT(int) marks, BURIN_OUT(float) way) {
+    marks = 0;
+    way = -1.0;
+    vec2 along_x = look_x;
+    vec2 along_y = look_y;
+#if PIXEL_FILTER == FILTER_RAYS
+    ray.origin += along_x * ray_place.x + along_y * ray_place.y;
+    return point_color(ray, way);
+#else
+    BurinRay straight = ray;
+    float drop = 0.0;
+    bool areas = burin_straighten(bend, eye_direction, straight, drop);
+    vec3 sum = vec3(0.0);
+    float parts = 0.0;
+    uint special = 1u;
+    // Beside the outline of a round surface nothing straight stands in for the ray.
+    if (areas) special = sum_areas(straight, drop, along_x, along_y, sum, parts);
+#if PIXEL_FILTER == FILTER_MARKED
+    marks = areas ? int(special >> 1) : 15;
+    return vec4(marks == 0 ? sum / parts : sum * 0.25, 1.0);
+#else
+    sum_rays(ray, along_x, along_y, special, areas ? max(side / 2, 1) : side, sum, parts);
+    return vec4(sum / max(parts, 1.0), parts);
+#endif
+#endif
+}
+
 bool is_wanted() {
     int bits = int(texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x * 255.0 + 0.5);
-    if (pixel_filter != FILTER_QUARTERS) return everywhere != 0 || bits != 0;
     int quarter = (ray_place.x < 0.0 ? 0 : 1) + (ray_place.y < 0.0 ? 0 : 2);
     return ((bits >> quarter) & 1) != 0;
 }
@@ -204,49 +268,17 @@ void main() {
     ray.origin = bend_start;
     ray.slope = burin_slope_of(eye_direction);
     stand_at(vec2(0.0), 0.0);
+    int marks;
+    float way;
+    vec4 found = pixel_color(ray, marks, way);
 #ifdef BURIN_CORRECT_DEPTH
+#if PIXEL_FILTER != FILTER_RAYS
     BurinFound middle = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction, chart));
     if (middle.hit.met) gl_FragDepth = depth_of(world_position - to_eye * middle.way);
+#else
+    if (found.w > 0.0) gl_FragDepth = depth_of(world_position - to_eye * way);
 #endif
-    vec2 along_x = look_x;
-    vec2 along_y = look_y;
-    BurinRay straight = ray;
-    float drop = 0.0;
-    bool filtered = pixel_filter == FILTER_REGIONS || pixel_filter == FILTER_MARKED;
-    bool areas = filtered && burin_straighten(bend, eye_direction, straight, drop);
-    // Beside the outline of a round surface nothing straight stands in for the ray.
-    if (pixel_filter == FILTER_MARKED && !areas) {
-        color = vec4(0.0, 0.0, 0.0, 15.0);
-        return;
-    }
-    if (pixel_filter == FILTER_QUARTERS) ray.origin += along_x * ray_place.x + along_y * ray_place.y;
-    // The whole pixel at once where its features do not meet; else its quarters; and those where they do, by rays.
-    vec3 sum = vec3(0.0);
-    float parts = 0.0;
-    int marks = 0;
-    for (int i = 0; i <= 4; ++i) {
-        vec4 found = vec4(0.0, 0.0, 0.0, 1.0);
-        bool rays = !areas;
-        if (areas) {
-            stand_at(straight.origin + straight.slope * drop - bend_start, drop);
-            Areas said = areas_of(part_of(straight, along_x, along_y, i));
-            bool whole = i == 0 && (said.far || !said.special);
-            if (i == 0 && !whole) continue;
-            rays = !whole && said.special;
-            found.rgb = said.color;
-        }
-        if (rays && pixel_filter == FILTER_MARKED) {
-            marks += 1 << (i - 1);
-            found = vec4(0.0, 0.0, 0.0, 1.0);
-        } else if (rays) {
-            Part part = part_of(ray, along_x, along_y, i);
-            int count = pixel_filter == FILTER_QUARTERS ? 1 : (areas ? max(side / 2, 1) : side);
-            found = sampled_color(part.ray, part.along_x, part.along_y, count);
-        }
-        sum += found.rgb * (found.w > 0.0 ? 1.0 : 0.0);
-        parts += found.w > 0.0 ? 1.0 : 0.0;
-        if (i == 0) break;
-    }
-    if (parts == 0.0) discard;
-    color = vec4(sum / parts, float(marks));
+#endif
+    if (found.w == 0.0) discard;
+    color = vec4(found.rgb, float(marks));
 }
