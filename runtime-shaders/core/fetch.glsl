@@ -123,10 +123,10 @@ BurinElement burin_element(uint reference, vec2 origin, vec2 centre) {
 #endif
     }
 #endif
-    vec2 shift = burin_image(p0, p2, centre);
-    e.p0 = (p0 + shift) * burin_map.size - origin;
-    e.p1 = (p1 + shift) * burin_map.size - origin;
-    e.p2 = (p2 + shift) * burin_map.size - origin;
+    e.image = burin_image(p0, p2, centre);
+    e.p0 = (p0 + e.image) * burin_map.size - origin;
+    e.p1 = (p1 + e.image) * burin_map.size - origin;
+    e.p2 = (p2 + e.image) * burin_map.size - origin;
     vec2 chord = burin_direction(e.p2 - e.p0, vec2(1.0f, 0.0f));
     e.extent = length(e.p2 - e.p0);
     e.t0 = e.curved ? burin_direction(e.p1 - e.p0, chord) : chord;

@@ -100,8 +100,20 @@ int burin_piece_count(BurinElement e, vec2 limits, float radius) {
     return within < 0.1f ? 1 : clamp(int(ceil(turn * 6.0f)), 1, 8);
 }
 
-void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootprint footprint, vec2 light_slope,
-                       bool shadows, BURIN_INOUT(BurinRegion) region) {
+// An element that shows in the pixel, or throws a shadow into it.
+struct BurinShown {
+    BurinElement e;
+    BurinStyle style;
+    BurinStretch stretch;  // that shows
+    vec2 lean;             // metres along the path per metre of offset at which its ends lie
+    float wide;
+    float spread;
+    uint marks;  // places that its ends want rays for
+};
+
+// Whether the element shows.
+bool burin_shows(BurinElement e, BurinCell cell, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows,
+                 BURIN_OUT(BurinShown) shown) {
     BurinStyle style = burin_style(e.style);
     float wide = style.reach * burin_widest(e);
     float high = max(style.level - cell.highest, cell.lowest - style.level);
@@ -122,12 +134,23 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     float relief = burin_map.drop_range.y - burin_map.drop_range.x;
     vec2 way = ray.slope * relief;
     vec2 light_way = light_slope * (shadows ? relief : 0.0f);
-    region.special = region.special | burin_end_mask(start, footprint, place, wide, lean.x, way, light_way) |
-                     burin_end_mask(end, footprint, place, wide, lean.y, way, light_way);
-    BurinStretch stretch = burin_stretch_of(e, place, reach, tips);
+    shown.marks = burin_end_mask(start, footprint, place, wide, lean.x, way, light_way) |
+                  burin_end_mask(end, footprint, place, wide, lean.y, way, light_way);
+    shown.e = e;
+    shown.style = style;
+    shown.stretch = burin_stretch_of(e, place, reach, tips);
+    shown.stretch.room = footprint.radius;
+    shown.lean = lean;
+    shown.wide = wide;
+    shown.spread = reach.spread;
+    return shown.stretch.limits.y >= shown.stretch.limits.x;
+}
+
+void burin_add_shown(BurinShown shown, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows,
+                     BURIN_INOUT(BurinRegion) region) {
+    BurinElement e = shown.e;
+    BurinStretch stretch = shown.stretch;
     vec2 limits = stretch.limits;
-    if (limits.y < limits.x) return;
-    stretch.room = footprint.radius;
     uint mask = 0u;
     region.deep_shadow = 0u;
     int pieces = burin_piece_count(e, limits, footprint.radius);
@@ -135,7 +158,7 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
     for (int i = 0; i < 8; ++i) {
         stretch.limits = vec2(mix(limits.x, limits.y, float(i) / float(pieces)),
                               mix(limits.x, limits.y, float(i + 1) / float(pieces)));
-        stretch.lean = vec2(stretch.limits.x <= 0.0f ? lean.x : 0.0f, stretch.limits.y >= 1.0f ? lean.y : 0.0f);
+        stretch.lean = vec2(stretch.limits.x <= 0.0f ? shown.lean.x : 0.0f, stretch.limits.y >= 1.0f ? shown.lean.y : 0.0f);
         stretch.near_first = i == 0 && limits.x <= 0.0f;
         stretch.near_last = i == pieces - 1 && limits.y >= 1.0f;
         if (pieces > 1) {
@@ -143,18 +166,19 @@ void burin_add_element(BurinElement e, BurinCell cell, BurinRay ray, BurinFootpr
             stretch.normal = burin_normal_of(burin_direction(burin_path_rate(e, stretch.middle), e.t0));
             stretch.scales = burin_scales_at(e, stretch.middle);
         }
-        mask = mask | burin_add_stripe(e, style, stretch, footprint, ray.slope, light_slope, shadows, region);
+        mask = mask | burin_add_stripe(e, shown.style, stretch, footprint, ray.slope, light_slope, shadows, region);
         if (i + 1 >= pieces) break;
     }
+    vec2 light_way = light_slope * (shadows ? burin_map.drop_range.y - burin_map.drop_range.x : 0.0f);
     // A ray that runs along a bend for long meets it elsewhere than the stripes are.
     float curvature = abs(burin_bend(e, stretch, ray.slope, light_slope).curvature);
-    float waves = e.waved ? abs(e.argument.y) * (reach.spread + footprint.radius) / max(e.extent, 1.0e-20f) : 0.0f;
+    float waves = e.waved ? abs(e.argument.y) * (shown.spread + footprint.radius) / max(e.extent, 1.0e-20f) : 0.0f;
     // And light that runs along a taper passes a profile of another size.
     float taper = max(abs(e.scales.y - e.scales.x), abs(e.scales.w - e.scales.z)) / max(e.extent, 1.0e-20f);
-    float grown = taper * (reach.spread + length(light_way)) / min(stretch.scales.x, stretch.scales.y);
+    float grown = taper * (shown.spread + length(light_way)) / min(stretch.scales.x, stretch.scales.y);
     // By how much it is off counts the less, the smaller the feature is in the pixel.
-    float coarse = max(footprint.radius / wide, 1.0f);
-    if (max(max(curvature * reach.spread, waves), grown) > BURIN_MOST_BEND * coarse * coarse) region.special = 0xffffu;
+    float coarse = max(footprint.radius / shown.wide, 1.0f);
+    if (max(max(curvature * shown.spread, waves), grown) > BURIN_MOST_BEND * coarse * coarse) region.bent = true;
     // Features over each other; thin ones hardly are.
     float area = region.strip_area;
     region.strip_area = 0.0f;
@@ -177,37 +201,28 @@ vec4 burin_region_box(BurinRay ray, BurinFootprint footprint, vec2 drops) {
     return vec4(floor(low.x), floor(low.y), floor(high.x), floor(high.y));
 }
 
-// Cell k of a block of cells, row by row.
-struct BurinRegionCell {
-    ivec2 wrapped;  // in the map
-    vec2 centre;    // uv, not wrapped
+// The elements around a pixel, each once: cells share them.
+struct BurinGathered {
+    uint references[BURIN_MAX_REGION_ELEMENTS];
+    vec2 images[BURIN_MAX_REGION_ELEMENTS];  // tiles by which each is moved
+    vec2 homes[BURIN_MAX_REGION_ELEMENTS];   // cell that named it first, not wrapped
+    int count;
+    bool complete;
+};
+BurinGathered burin_gathered;
+
+// The cells that a pixel spans.
+struct BurinSpan {
+    ivec2 low;
+    ivec2 sides;
+    float fullness;  // how much of what it may span
+    bool inside;     // of a map that does not repeat
 };
 
-BurinRegionCell burin_region_cell(ivec2 low, ivec2 sides, int k) {
-    ivec2 index = low + ivec2(k % sides.x, k / sides.x);
-    BurinRegionCell at;
-    at.wrapped = index - ivec2(floor(vec2(index) / vec2(burin_map.cells))) * burin_map.cells;
-    at.centre = (vec2(index) + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
-    return at;
-}
-
-// `ground` is the colour of lit ground, `ground_drop` the drop of the ground around. The ray passes the object surface at the
-// pixel's centre. Where fullness is 1 or more the pixel spans too much to be looked through, and the rest says nothing.
-BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, vec3 ground,
-                         float ground_drop) {
-    BurinRegion region;
-    region.color = vec3(0.0f, 0.0f, 0.0f);
-    region.ground = ground;
-    region.covered = 0u;
-    region.special = 0u;
-    region.deep_shadows = 0u;
-    region.deep_shadow = 0u;
-    region.covered_area = 0.0f;
-    region.strip_area = 0.0f;
-    region.elements = 0;
+BurinSpan burin_span(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, float ground_drop) {
     vec4 box = burin_region_box(ray, footprint, burin_map.drop_range);
-    region.fullness = (box.z - box.x + 1.0f) * (box.w - box.y + 1.0f) / float(BURIN_MAX_REGION_CELLS);
-    if (region.fullness > 1.0f) return region;
+    BurinSpan span;
+    span.fullness = (box.z - box.x + 1.0f) * (box.w - box.y + 1.0f) / float(BURIN_MAX_REGION_CELLS);
     // What rises above the ground throws shadows as far as this, where they fall on the lowest surface.
     bool stands_out = ground_drop - burin_map.drop_range.x > BURIN_FILM * burin_map.depth;
     vec2 thrown = light_slope * (shadows && stands_out ? burin_map.drop_range.y - burin_map.drop_range.x : 0.0f);
@@ -215,58 +230,126 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
     vec4 wide = vec4(floor(box.x - max(thrown.x, 0.0f)), floor(box.y - max(thrown.y, 0.0f)),
                      floor(box.z - min(thrown.x, 0.0f)), floor(box.w - min(thrown.y, 0.0f)));
     vec2 last = vec2(burin_map.cells - ivec2(1, 1));
-    bool inside = box.x >= 0.0f && box.y >= 0.0f && box.z <= last.x && box.w <= last.y;
-    if (burin_map.repeats == 0) {
-        if (!inside) {
-            region.special = 0xffffu;
-            return region;
-        }
-        wide = vec4(max(wide.x, 0.0f), max(wide.y, 0.0f), min(wide.z, last.x), min(wide.w, last.y));
-    }
+    span.inside = burin_map.repeats != 0 || (box.x >= 0.0f && box.y >= 0.0f && box.z <= last.x && box.w <= last.y);
+    if (burin_map.repeats == 0) wide = vec4(max(wide.x, 0.0f), max(wide.y, 0.0f), min(wide.z, last.x), min(wide.w, last.y));
     if ((wide.z - wide.x + 1.0f) * (wide.w - wide.y + 1.0f) <= float(BURIN_MAX_REGION_CELLS)) box = wide;
-    ivec2 low = ivec2(int(box.x), int(box.y));
-    ivec2 sides = ivec2(int(box.z), int(box.w)) - low + ivec2(1, 1);
-    // First which elements there are, since cells share them; then each once, in the cell that named it first.
-    uint seen[BURIN_MAX_REGION_ELEMENTS];
-    vec2 images[BURIN_MAX_REGION_ELEMENTS];
-    int homes[BURIN_MAX_REGION_ELEMENTS];
-    int count = 0;
+    span.low = ivec2(int(box.x), int(box.y));
+    span.sides = ivec2(int(box.z), int(box.w)) - span.low + ivec2(1, 1);
+    return span;
+}
+
+// The cell of the map at a place of the plane of cells, which repeats.
+BurinCell burin_wrapped_cell(vec2 index) {
+    return burin_cell(ivec2(index - floor(index / vec2(burin_map.cells)) * vec2(burin_map.cells)));
+}
+
+vec2 burin_cell_centre(vec2 index) {
+    return (index + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
+}
+
+// Whether the element comes so near that it may show, or want rays for its ends: a rough question, at a fraction of what
+// burin_shows costs. `light_way`: metres that the light moves over the plane within the relief.
+bool burin_may_show(BurinElement e, BurinRay ray, float radius, float light_way) {
+    BurinStyle style = burin_style(e.style);
+    float wide = style.reach * burin_widest(e);
+    BurinEnd start = burin_end(e, true);
+    BurinEnd end = burin_end(e, false);
+    float lean = max(abs(burin_end_lean(start, e.t0)), abs(burin_end_lean(end, e.t2)));
+    vec2 from = ray.slope * burin_map.drop_range.x;
+    vec2 to = ray.slope * burin_map.drop_range.y;
+    float room = 1.01f * wide + radius + length(to - from) + light_way;
+    return !burin_passes_beyond(e, from, to, room + max(lean, 1.0f) * wide) && !burin_passes_beside(e, from, to, room);
+}
+
+// Gathers the elements of a cell that may show and are not known yet.
+void burin_gather_cell(vec2 index, BurinRay ray, float radius, float light_way) {
+    BurinCell cell = burin_wrapped_cell(index);
+    uvec4 texel = uvec4(0u, 0u, 0u, 0u);
+    for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
+        if (i >= cell.count || !burin_gathered.complete) break;
+        uint reference = burin_listed(cell, i, texel);
+        BurinElement e = burin_element(reference, ray.origin, burin_cell_centre(index));
+        bool known = !burin_may_show(e, ray, radius, light_way);
+        for (int j = 0; j < BURIN_MAX_REGION_ELEMENTS; ++j) {
+            if (known || j >= burin_gathered.count) break;
+            known = burin_gathered.references[j] == reference && burin_gathered.images[j] == e.image;
+        }
+        burin_gathered.complete = known || burin_gathered.count < BURIN_MAX_REGION_ELEMENTS;
+        if (!known && burin_gathered.complete) {
+            burin_gathered.references[burin_gathered.count] = reference;
+            burin_gathered.images[burin_gathered.count] = e.image;
+            burin_gathered.homes[burin_gathered.count] = index;
+            ++burin_gathered.count;
+        }
+        if (i + 1 >= cell.count) break;
+    }
+}
+
+// Gathers for a pixel, before burin_region is asked about it and, where the whole was complete, about parts of it.
+void burin_gather(BurinSpan span, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows) {
+    float light_way = shadows ? length(light_slope) * (burin_map.drop_range.y - burin_map.drop_range.x) : 0.0f;
+    burin_gathered.count = 0;
+    burin_gathered.complete = span.fullness <= 1.0f && span.inside;
     for (int k = 0; k < BURIN_MAX_REGION_CELLS; ++k) {
-        BurinRegionCell at = burin_region_cell(low, sides, k);
-        BurinCell cell = burin_cell(at.wrapped);
-        uvec4 texel = uvec4(0u, 0u, 0u, 0u);
-        for (int i = 0; i < BURIN_MAX_REFS_PER_CELL; ++i) {
-            if (i >= cell.count) break;
-            uint reference = burin_listed(cell, i, texel);
-            uvec4 a = fetch_data(int(reference));
-            vec2 image = burin_image(burin_vertex_uv(a.x, a.y), burin_vertex_uv(a.z, a.w), at.centre);
-            bool known = false;
-            for (int j = 0; j < BURIN_MAX_REGION_ELEMENTS; ++j) {
-                if (j >= count || known) break;
-                known = seen[j] == reference && images[j] == image;
-            }
-            if (known) continue;
-            if (count == BURIN_MAX_REGION_ELEMENTS) {
-                // Too many to tell apart: from near by rays, from far away by the prefilter.
-                region.special = 0xffffu;
-                if (region.fullness > 0.4f) region.fullness = 1.0f;
-                return region;
-            }
-            seen[count] = reference;
-            images[count] = image;
-            homes[count] = k;
-            ++count;
-        }
-        if (k + 1 >= sides.x * sides.y) break;
+        if (!burin_gathered.complete) break;
+        burin_gather_cell(vec2(span.low + ivec2(k % span.sides.x, k / span.sides.x)), ray, footprint.radius, light_way);
+        if (k + 1 >= span.sides.x * span.sides.y) break;
     }
-    for (int j = 0; j < BURIN_MAX_REGION_ELEMENTS; ++j) {
-        if (j < count) {
-            BurinRegionCell at = burin_region_cell(low, sides, homes[j]);
-            BurinElement e = burin_element(seen[j], ray.origin, at.centre);
-            burin_add_element(e, burin_cell(at.wrapped), ray, footprint, light_slope, shadows, region);
-        }
-        if (j + 1 >= count) break;
+}
+
+BurinRegion burin_no_region(vec3 ground, float fullness) {
+    BurinRegion region;
+    region.color = vec3(0.0f, 0.0f, 0.0f);
+    region.ground = ground;
+    region.covered = 0u;
+    region.special = 0u;
+    region.bent = false;
+    region.deep_shadows = 0u;
+    region.deep_shadow = 0u;
+    region.covered_area = 0.0f;
+    region.strip_area = 0.0f;
+    region.elements = 0;
+    region.fullness = fullness;
+    return region;
+}
+
+// `ground` is the colour of lit ground. The ray passes the object surface at the pixel's centre. Where fullness is 1 or more the
+// pixel spans too much to be looked through, and the rest says nothing. Asks what was gathered; `whole`: and keeps of it what shows,
+// for the pixel's parts.
+BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, vec3 ground, BurinSpan span, bool whole) {
+    BurinRegion region = burin_no_region(ground, span.fullness);
+    if (span.fullness > 1.0f) return region;
+    if (!burin_gathered.complete || !span.inside) {
+        // Too many to tell apart: from near by rays, from far away by the prefilter.
+        region.special = 0xffffu;
+        if (span.inside && region.fullness > 0.4f) region.fullness = 1.0f;
+        return region;
     }
+    BurinShown shown;
+    int j = 0;
+    int kept = 0;
+    for (int n = 0; n < BURIN_MAX_REGION_ELEMENTS; ++n) {
+        bool shows = false;
+        for (int k = 0; k < BURIN_MAX_REGION_ELEMENTS; ++k) {
+            if (shows || j >= burin_gathered.count) break;
+            uint reference = burin_gathered.references[j];
+            vec2 home = burin_gathered.homes[j];
+            BurinElement e = burin_element(reference, ray.origin, burin_cell_centre(home));
+            shows = burin_shows(e, burin_wrapped_cell(home), ray, footprint, light_slope, shadows, shown);
+            region.special = region.special | shown.marks;
+            if (whole && (shows || shown.marks != 0u)) {
+                burin_gathered.references[kept] = reference;
+                burin_gathered.homes[kept] = home;
+                ++kept;
+            }
+            ++j;
+            if (shows || j >= burin_gathered.count) break;
+        }
+        if (shows) burin_add_shown(shown, ray, footprint, light_slope, shadows, region);
+        if (j >= burin_gathered.count) break;
+    }
+    if (whole) burin_gathered.count = kept;
+    if (region.bent) region.special = 0xffffu;
     region.fullness = max(region.fullness, float(region.elements) / float(BURIN_MAX_REGION_ELEMENTS));
     // Where a map ends, its ground stands against the light that falls into a feature.
     vec2 light_way = abs(light_slope) * ((burin_map.drop_range.y - burin_map.drop_range.x) * (shadows ? 1.0f : 0.0f));

@@ -11,6 +11,7 @@ struct BurinRegion {
     vec3 ground;   // colour of lit ground
     uint covered;  // places (burin_quad_mask) that a feature or its shadow covers
     uint special;  // places that stripes do not describe: two features over each other, ends
+    bool bent;     // nor do they describe a feature that shows, nor would they in parts of the pixel
     uint deep_shadows;   // places where shadows of the elements so far fall on whatever is lower than their ground
     uint deep_shadow;     // the same of the element at hand
     float covered_area;  // sum of what the elements so far cover
@@ -101,11 +102,13 @@ BurinRail burin_thrown_rail(BurinElement e, BurinStyle style, BurinStretch stret
     ends.y = max(ends.x, ends.y);
     vec2 range = ends;
     rail.middle = burin_beside(e, slope * (rail.drop + thrown.below) - thrown.shift, stretch.middle);
+#if BURIN_CURVES != 0 || BURIN_FUNCTION_KINDS != 0
     if (e.curved || e.waved) {
         // On the inner side of a bend the rail is shorter than the path.
         float room = 2.0f * stretch.room / length(burin_path_rate(e, rail.middle));
         range = clamp(vec2(rail.middle - room, rail.middle + room), vec2(ends.x, ends.x), vec2(ends.y, ends.y));
     }
+#endif
     vec3 from = burin_rail_end(e, style, stretch, footprint, slope, thrown, range.x);
     vec3 to = burin_rail_end(e, style, stretch, footprint, slope, thrown, range.y);
     rail.middle = clamp(rail.middle, ends.x, ends.y);
@@ -116,6 +119,7 @@ BurinRail burin_thrown_rail(BurinElement e, BurinStyle style, BurinStretch stret
     rail.last = rail.to;
     rail.at_first = range.x <= ends.x;
     rail.at_last = range.y >= ends.y;
+#if BURIN_CURVES != 0 || BURIN_FUNCTION_KINDS != 0
     if ((e.curved || e.waved) && stretch.near_first && !rail.at_first) {
         vec3 end = burin_rail_end(e, style, stretch, footprint, slope, thrown, ends.x);
         rail.first = vec2(end.x, end.y);
@@ -124,6 +128,7 @@ BurinRail burin_thrown_rail(BurinElement e, BurinStyle style, BurinStretch stret
         vec3 end = burin_rail_end(e, style, stretch, footprint, slope, thrown, ends.y);
         rail.last = vec2(end.x, end.y);
     }
+#endif
     return rail;
 }
 

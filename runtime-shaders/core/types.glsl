@@ -78,6 +78,7 @@ struct BurinElement {
     vec2 p0;  // metres from the ray's origin
     vec2 p1;
     vec2 p2;
+    vec2 image;  // whole tiles by which it is moved
     vec2 t0;  // unit tangents at the ends
     vec2 t2;
     float extent;  // length of the chord

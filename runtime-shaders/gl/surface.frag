@@ -123,10 +123,12 @@ Part part_of(BurinRay ray, vec2 along_x, vec2 along_y, int index) {
 struct Areas {
     vec3 color;
     bool special;  // and that rays should be asked
+    bool bent;     // wherever in the part
     bool far;      // it spans so many features that nothing else need be asked
 };
 
-Areas areas_of(Part part) {
+// `whole`: of the pixel. `gather`: what lies around must be gathered first.
+Areas areas_of(Part part, bool whole, bool gather) {
     vec2 tile = floor(part.ray.origin / burin_map.size) * burin_map.size * float(burin_map.repeats);
     float level = burin_cell(burin_cell_at(part.ray.origin - tile)).level;
     vec2 place = part.ray.origin + part.ray.slope * level;
@@ -138,11 +140,15 @@ Areas areas_of(Part part) {
     rest_slopes = fetch_residual(place, uv_along_x, uv_along_y);
     ground_paint = paint_of(0u, look_at(vec3(0.0, 0.0, 1.0), level));
     vec3 ground = ground_color(level, 1.0);
-    BurinRegion region = burin_region(part.ray, burin_footprint(part.along_x, part.along_y), light_slope, shadowed, ground, level);
+    BurinFootprint footprint = burin_footprint(part.along_x, part.along_y);
+    BurinSpan span = burin_span(part.ray, footprint, light_slope, shadowed, level);
+    if (gather) burin_gather(span, part.ray, footprint, light_slope, shadowed);
+    BurinRegion region = burin_region(part.ray, footprint, light_slope, shadowed, ground, span, whole);
     Areas areas;
     areas.color = ground + region.color;
     // The eye's straight ray meets the true one half way down; the light's begins on it.
     bool bends = burin_bends(bend, part.ray.slope * 0.5) || (shadowed && burin_bends(bend, light_slope));
+    areas.bent = region.bent || bends;
     areas.special = region.special != 0u || bends || meets_border(part.ray, part.along_x, part.along_y);
     // From a pixel that spans many features to one that spans too many: the prefilter takes over by degrees.
     float far = smoothstep(0.4, 0.9, region.fullness);
@@ -157,10 +163,14 @@ Areas areas_of(Part part) {
 uint sum_areas(BurinRay straight, float drop, vec2 along_x, vec2 along_y, BURIN_INOUT(vec3) sum, BURIN_INOUT(float) parts) {
     uint special = 0u;
     stand_at(straight.origin + straight.slope * drop - bend_start, drop);
+    bool gather = true;
     for (int i = 0; i <= 4; ++i) {
-        Areas said = areas_of(part_of(straight, along_x, along_y, i));
-        // The whole pixel at once where its features do not meet; else its quarters.
+        Areas said = areas_of(part_of(straight, along_x, along_y, i), i == 0, gather);
+        gather = i == 0 ? !burin_gathered.complete : gather;
+        // The whole pixel at once where its features do not meet; else its quarters, unless they cannot do better.
         bool done = i == 0 && (said.far || !said.special);
+        if (i == 0 && !done && said.bent) special = 30u;
+        if (special == 30u) break;
         if (i > 0 && said.special) special = special | (1u << uint(i));
         if (done || (i > 0 && !said.special)) {
             sum += said.color;
