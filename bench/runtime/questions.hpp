@@ -25,6 +25,7 @@ struct Configuration {
 const std::vector<Configuration>& configurations();
 
 void ask_hits(const Settings& settings);
+void ask_holes(const Settings& settings);
 void ask_pictures(const Settings& settings);
 void ask_memory(const Settings& settings);
 void ask_flicker(const Settings& settings);
