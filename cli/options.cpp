@@ -186,7 +186,7 @@ void declare_options(CLI::App& app, const std::string& command, Collected& colle
             app.add_flag(spec.name, collected.flags[long_name(spec)]);
         } else {
             app.add_option(spec.name, collected.texts[long_name(spec)])
-                ->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+                ->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
         }
     }
 }

@@ -51,6 +51,7 @@
 #define BURIN_BORDER_TEXELS 4
 #define BURIN_MAX_BORDERS 1048576
 #define BURIN_MAX_CHART_CELLS 1024  // per side
+#define BURIN_MOST_EDGE_ANGLE 2.9    // radians
 
 // ---- data texture: RGBA32UI; sections elements, styles, profiles, materials, lists, functions, each from a texel on
 // Element, texel A:

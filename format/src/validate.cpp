@@ -8,6 +8,7 @@
 
 #include "container.hpp"
 #include "extension_json.hpp"
+#include "layout.h"
 #include "texture_check.hpp"
 
 namespace burin {
@@ -131,7 +132,7 @@ void check_charts(const ChartLayout& charts, const std::vector<std::uint32_t>& w
     for (std::size_t i = 0; i < static_cast<std::size_t>(charts.borders); ++i)
         for (std::size_t k = 0; k < 14; ++k) {
             const float number = std::bit_cast<float>(words[16 * i + k]);
-            const bool good = std::isfinite(number) && (k != kScale || number > 0.0f) && (k != kAngle || std::abs(number) <= 2.9f);
+            const bool good = std::isfinite(number) && (k != kScale || number > 0.0f) && (k != kAngle || std::abs(number) <= float(BURIN_MOST_EDGE_ANGLE));
             if (good) continue;
             reporter.report(2046, "number " + std::to_string(k) + " of border " + std::to_string(i) + " is " + number_text(double(number)) +
                                       ", not finite or out of its range", "/charts");

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <optional>
 
+#include "layout.h"
+
 namespace burin {
 namespace {
 
@@ -117,8 +119,6 @@ double crease_angle(const Vertices& all, const Side& here, const Side& there, co
     return dot3(b, foot.inward_way) < 0.0 ? angle : -angle;
 }
 
-constexpr double kSharpest = 2.9;  // radians
-
 bool whole(double x) { return std::abs(x - std::round(x)) < 1e-6; }
 
 class BorderFinder {
@@ -156,7 +156,7 @@ class BorderFinder {
         const bool alike = (foot_a->winding * a.order > 0.0) == (foot_b->winding * b.order > 0.0);
         const double angle = crease_angle(all_, a, b, *foot_a, options_.crease_cosine);
         // Folded back on itself: a sheet of two sides, or a triangle whose normals look the wrong way. There is nothing beyond.
-        if (std::abs(angle) > kSharpest) return;
+        if (std::abs(angle) > BURIN_MOST_EDGE_ANGLE) return;
         const Vec2 begin = all_.uvs[b.begin] - all_.uvs[a.begin], end = all_.uvs[b.end] - all_.uvs[a.end];
         const bool same = all_.joined[a.begin] == all_.joined[b.begin] && all_.joined[a.end] == all_.joined[b.end];
         if (alike && angle == 0.0 && same) return;

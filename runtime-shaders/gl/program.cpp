@@ -18,14 +18,17 @@ constexpr int kResidualUnit = 3;  // behind those of the pattern and the rendere
 constexpr int kPrefilterUnit = 4;
 constexpr int kChartUnit = 5;
 
-// Log of a shader or program, shortened to its first lines.
+// Log of a shader or program, shortened: from its first error on, since drivers write warnings before.
 template <typename Query, typename Log>
 std::string log_of(Query query, Log log, GLuint id) {
     GLint length = 0;
     query(id, GL_INFO_LOG_LENGTH, &length);
     std::string text(std::size_t(std::max(length, 1)), '\0');
     log(id, length, &length, text.data());
-    text.resize(std::size_t(std::clamp(length, 0, 400)));
+    text.resize(std::size_t(std::max(length, 0)));
+    const std::size_t error = text.find("error");
+    if (error != std::string::npos) text.erase(0, text.rfind('\n', error) + 1);
+    text.resize(std::min<std::size_t>(text.size(), 400));
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
 }
