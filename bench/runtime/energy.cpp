@@ -52,7 +52,7 @@ void measure(const Settings& settings, const Subject& subject) {
         const Mean truth = truth_mean(subject, view, extent, settings.quick ? 5000 : 40000);
         const Asset asset = asset_of(subject, extent);
         std::printf("| %s | %g | %.4f ± %.4f ", subject.name.c_str(), cells, truth.value, truth.error);
-        for (const Configuration& configuration : configurations()) {
+        for (const Configuration& configuration : configurations(settings)) {
             RenderOptions options = options_of(view, subject.prepared.resolved.size);
             options.backend = settings.backend;
             configuration.apply(options);
@@ -70,9 +70,9 @@ void measure(const Settings& settings, const Subject& subject) {
 void ask_energy(const Settings& settings) {
     std::printf("\n### Energy\n\nMean linear luminance of a picture while the camera goes away: the truth's, and the shader's over it.\n\n"
                 "| scene | cells per pixel | truth |");
-    for (const Configuration& configuration : configurations()) std::printf(" %s |", configuration.name);
+    for (const Configuration& configuration : configurations(settings)) std::printf(" %s |", configuration.name);
     std::printf("\n|---|--:|--:|");
-    for (std::size_t i = 0; i < configurations().size(); ++i) std::printf("--:|");
+    for (std::size_t i = 0; i < configurations(settings).size(); ++i) std::printf("--:|");
     std::printf("\n");
     for_each_subject(settings, [&](const Subject& subject) { measure(settings, subject); });
 }

@@ -49,7 +49,8 @@ constexpr Move kMoves[] = {{"zoom", zoomed}, {"pan", panned}};
 void measure(const Settings& settings, const Subject& subject, const Move& move) {
     const int frames = settings.quick ? 16 : 200;
     PlaneView base = standard_views(subject, 48, 36)[1];
-    const std::size_t rows = configurations().size();
+    const std::vector<Configuration> settings_asked = configurations(settings);
+    const std::size_t rows = settings_asked.size();
     std::vector<double> change(rows + 1, 0.0);
     std::vector<Frame> before(rows + 1);
     for (int k = 0; k < frames; ++k) {
@@ -62,7 +63,7 @@ void measure(const Settings& settings, const Subject& subject, const Move& move)
             } else {
                 RenderOptions options = options_of(view, subject.prepared.resolved.size);
                 options.backend = settings.backend;
-                configurations()[row].apply(options);
+                settings_asked[row].apply(options);
                 const auto picture = render_asset(asset, options);
                 if (!picture) continue;
                 frame = values_of(*picture);
@@ -81,9 +82,9 @@ void measure(const Settings& settings, const Subject& subject, const Move& move)
 
 void ask_flicker(const Settings& settings) {
     std::printf("\n### Flicker\n\nMean change of sRGB values from frame to frame: the truth's, and the shader's over it.\n\n| scene | move | frames | truth |");
-    for (const Configuration& configuration : configurations()) std::printf(" %s |", configuration.name);
+    for (const Configuration& configuration : configurations(settings)) std::printf(" %s |", configuration.name);
     std::printf("\n|---|---|--:|--:|");
-    for (std::size_t i = 0; i < configurations().size(); ++i) std::printf("--:|");
+    for (std::size_t i = 0; i < configurations(settings).size(); ++i) std::printf("--:|");
     std::printf("\n");
     for_each_subject(settings, [&](const Subject& subject) {
         for (const Move& move : kMoves) measure(settings, subject, move);

@@ -34,6 +34,14 @@ struct Picture {
     }
 };
 
+constexpr long kPrinted = 6;
+
+// So that it can be followed by hand.
+void print_wrong(const Subject& subject, const PatternRay& ray, float off) {
+    std::fprintf(stderr, "%s: ray at (%.9g, %.9g) slope (%.9g, %.9g) is off by %.2g of the depth\n", subject.name.c_str(), double(ray.origin[0]),
+                 double(ray.origin[1]), double(ray.slope[0]), double(ray.slope[1]), double(off));
+}
+
 Counts judge(const Subject& subject, const Picture& picture, const std::vector<PatternRay>& rays, const std::vector<ShadedHit>& hits) {
     const Truth truth = testing::truth_of_stored(subject.prepared);
     const double border = 0.5 * std::max(picture.pixel.x, picture.pixel.y);
@@ -53,6 +61,7 @@ Counts judge(const Subject& subject, const Picture& picture, const std::vector<P
             if (!wrong(x, y)) continue;
             ++counts.wrong;
             counts.worst = std::max(counts.worst, double(here));
+            if (counts.wrong <= kPrinted) print_wrong(subject, rays[std::size_t(y) * std::size_t(picture.side) + std::size_t(x)], here);
             bool neighbour = false;
             for (int k = 0; k < 9; ++k) neighbour = neighbour || (k != 4 && wrong(x + k % 3 - 1, y + k / 3 - 1));
             if (neighbour) ++counts.beside;

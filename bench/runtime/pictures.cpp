@@ -29,7 +29,7 @@ void measure_view(const Settings& settings, const Subject& subject, const PlaneV
     if (std::count(truth.feature.begin(), truth.feature.end(), 1) == 0) return;
     const Asset asset = asset_of(subject, extent_of(view, subject.prepared.resolved));
     std::printf("| %s | %s ", subject.name.c_str(), view.name.c_str());
-    for (const Configuration& configuration : configurations()) {
+    for (const Configuration& configuration : configurations(settings)) {
         RenderOptions options = options_of(view, subject.prepared.resolved.size);
         options.backend = settings.backend;
         configuration.apply(options);
@@ -52,9 +52,9 @@ void ask_pictures(const Settings& settings) {
     std::printf("\n### Pictures against 256 samples per pixel of the truth\n\n"
                 "PSNR in dB and SSIM over the pixels whose footprint meets a feature or a shadow's edge; off: pixels wrong by more\n"
                 "than a quarter of the range.\n\n| scene | view |");
-    for (const Configuration& configuration : configurations()) std::printf(" %s: PSNR | SSIM | off |", configuration.name);
+    for (const Configuration& configuration : configurations(settings)) std::printf(" %s: PSNR | SSIM | off |", configuration.name);
     std::printf("\n|---|---|");
-    for (std::size_t i = 0; i < configurations().size(); ++i) std::printf("--:|--:|--:|");
+    for (std::size_t i = 0; i < configurations(settings).size(); ++i) std::printf("--:|--:|--:|");
     std::printf("\n");
     for_each_subject(settings, [&](const Subject& subject) {
         for (const PlaneView& view : standard_views(subject, settings.quick ? 96 : 160, settings.quick ? 72 : 120))

@@ -12,6 +12,7 @@ namespace burin::bench {
 struct Settings {
     bool quick = false;    // fewer rays, smaller pictures, fewer frames: minutes instead of hours
     std::string scene;     // only this one; "": all
+    std::string setting;   // of the renderer, where several are compared: only this one; "": all
     std::string pictures;  // folder for pictures and error maps; "": none are written
     std::string cache;     // folder of the truth's pictures; "": none are kept
     Backend backend = Backend::osmesa;
@@ -22,7 +23,7 @@ struct Configuration {
     const char* name;
     std::function<void(RenderOptions&)> apply;
 };
-const std::vector<Configuration>& configurations();
+std::vector<Configuration> configurations(const Settings& settings);
 
 void ask_hits(const Settings& settings);
 void ask_holes(const Settings& settings);

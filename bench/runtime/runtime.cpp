@@ -1,6 +1,6 @@
 // The runtime measured: decoder and shader against the truth.
 //
-//     bench_runtime [QUESTION ...] [--scene NAME] [--quick] [--pictures FOLDER] [--cache FOLDER] [--backend egl]
+//     bench_runtime [QUESTION ...] [--scene NAME] [--setting NAME] [--quick] [--pictures FOLDER] [--cache FOLDER] [--backend egl]
 //
 // Questions: hits holes pictures memory flicker energy features grid; without any, all of them. Tables in Markdown go to standard output.
 #include <cstdio>
@@ -12,8 +12,8 @@
 
 namespace burin::bench {
 
-const std::vector<Configuration>& configurations() {
-    static const std::vector<Configuration> list = {
+std::vector<Configuration> configurations(const Settings& settings) {
+    std::vector<Configuration> list = {
         {"points 1", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 1; }},
         {"points 4", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 4; }},
         {"points 16", [](RenderOptions& o) { o.antialiasing = Antialiasing::points, o.samples = 16; }},
@@ -22,6 +22,7 @@ const std::vector<Configuration>& configurations() {
         {"regions, 16 rays", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 1, o.rays = 16; }},
         {"regions 4", [](RenderOptions& o) { o.antialiasing = Antialiasing::regions, o.samples = 4, o.rays = 16; }},
     };
+    if (!settings.setting.empty()) std::erase_if(list, [&](const Configuration& one) { return one.name != settings.setting; });
     return list;
 }
 
@@ -52,7 +53,7 @@ constexpr Question kQuestions[] = {{"hits", ask_hits},     {"holes", ask_holes},
 int usage(const std::string& word) {
     std::fprintf(stderr, "bench_runtime: error: '%s' is no question or option; questions:", word.c_str());
     for (const Question& question : kQuestions) std::fprintf(stderr, " %s", question.name);
-    std::fprintf(stderr, "; options: --scene NAME --quick --pictures FOLDER --cache FOLDER --backend osmesa|egl\n");
+    std::fprintf(stderr, "; options: --scene NAME --setting NAME --quick --pictures FOLDER --cache FOLDER --backend osmesa|egl\n");
     return 2;
 }
 
@@ -78,11 +79,13 @@ int main(int argc, char** argv) {
         if (known) continue;
         if (word == "--quick") settings.quick = true;
         else if (word == "--scene" && more) settings.scene = argv[++i];
+        else if (word == "--setting" && more) settings.setting = argv[++i];
         else if (word == "--pictures" && more) settings.pictures = argv[++i];
         else if (word == "--cache" && more) settings.cache = argv[++i];
         else if (word == "--backend" && more) settings.backend = argv[++i] == std::string("egl") ? burin::Backend::egl : burin::Backend::osmesa;
         else return usage(word);
     }
+    if (configurations(settings).empty()) return usage(settings.setting);
     if (asked.empty())
         for (const Question& question : kQuestions) asked.push_back(&question);
     print_machine(settings);

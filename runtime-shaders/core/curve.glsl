@@ -44,6 +44,15 @@ vec2 burin_stationary(vec4 c) {
     return vec2((u + u) * z - k, (-v - u) * z - k);
 }
 
+// Of the arc, 1 / metres: where its speed is least.
+float burin_greatest_curvature(BurinElement e) {
+    vec2 a = e.p1 - e.p0;
+    vec2 b = e.p0 - 2.0f * e.p1 + e.p2;
+    float s = clamp(-dot(a, b) / max(dot(b, b), 1.0e-24f), 0.0f, 1.0f);
+    float speed = max(length(a + s * b), 1.0e-3f * e.extent);
+    return 0.5f * abs(a.x * b.y - a.y * b.x) / max(speed * speed * speed, 1.0e-30f);
+}
+
 BurinFoot burin_curve_foot(BurinElement e, vec2 p) {
     vec2 a = e.p1 - e.p0;
     vec2 b = e.p0 - 2.0f * e.p1 + e.p2;

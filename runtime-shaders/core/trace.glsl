@@ -52,7 +52,7 @@ int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, Buri
     if (burin_is_straight(piece)) return 0;
     float way = length(ray.slope) * (piece.hi - piece.lo);
     float bend = 0.0f;
-    if (piece.kind == BURIN_PIECE_CURVE) bend = length(e.p0 - 2.0f * e.p1 + e.p2) * 2.0f / max(e.extent * e.extent, 1.0e-12f);
+    if (piece.kind == BURIN_PIECE_CURVE) bend = burin_greatest_curvature(e);
     if (piece.kind == BURIN_PIECE_RADIAL) bend = 2.0f / style.reach;
     if (!piece.fixed_scale) bend = bend + 1.0f / max(e.extent, 1.0e-6f);
     // Rise of the arc over its chord, in reaches.
@@ -72,8 +72,9 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
     float part = piece.lo;
     if (count > 0 && pass.level > piece.lo && pass.level < piece.hi) {
         part = pass.level;
-        above = clamp(int(floor(float(count) * (part - piece.lo) / (piece.hi - piece.lo) + 0.5f)), 1, count);
-        count = max(count, above + 1);
+        int share = int(floor(float(count) * (part - piece.lo) / (piece.hi - piece.lo) + 0.5f));
+        above = max(share, 1);
+        count = above + max(count - share, 1);
     }
     count = max(count, 1);
     float overlap = 4.0f * BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y) / style.reach;
