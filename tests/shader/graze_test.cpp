@@ -7,6 +7,8 @@
 
 #include <cpp/decode.hpp>
 
+#include <scenes/scenes_2010.hpp>
+
 #include "../property/random_pattern.hpp"
 #include "patterns.hpp"
 #include "rays.hpp"
@@ -71,6 +73,24 @@ TEST(Graze, BentRaysThatPassAFacetTwiceMeetIt) {
     std::cout << agreement.report("grazes");
     EXPECT_GE(agreement.facet_share(RayKind::feature), 0.999) << "seed " << kSeed << "\n" << agreement.worst;
     EXPECT_LE(agreement.borders[0], kRays / 50);
+}
+
+// A letter's side: the ray comes to the plateau's ground at once, passes over the round side, and goes through it and back
+// within one cell. Of the two segments that the bend asks for, one was once spent above the ground.
+TEST(Graze, SideOfALetterIsMet) {
+    const PreparedPattern pattern = prepare(scenes::make_letters().parts[0].pattern);
+    const Truth truth = truth_of_stored(pattern);
+    std::vector<AimedRay> rays;
+    for (int k = -50; k <= 50; ++k) {
+        PatternRay ray{{0.0472373217f, 0.140546292f}, {1.21287191f, -5.35954332f}};
+        ray.origin[0] += float(k) * 1e-6f;
+        rays.push_back({ray, RayKind::feature});
+    }
+    const auto hits = decode_rays(pattern, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Verdict verdict = compare_hit(truth, pattern, rays[i].ray, hits[i], 1e-6);
+        EXPECT_TRUE(verdict.border || !verdict.facet_differs) << "ray " << i << " falls " << hits[i].drop << ", should " << verdict.truth.t;
+    }
 }
 
 // The distance of two answers along the ray, in widths of the feature; nothing where they are no answers to compare.
