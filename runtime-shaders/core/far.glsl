@@ -9,8 +9,34 @@ struct BurinClass {
     float height;  // scale
 };
 
-// Colour less that of lit ground, times the metres across that show it; divided by the style's reach.
-vec3 burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool shadows, vec3 ground) {
+// What stripes show. Widths are metres over the plane along the ray's way, divided by the style's reach.
+struct BurinFar {
+    vec3 color;    // sum of width * (colour - colour of lit ground)
+    float shown;   // width of the stripe as it shows
+    float own;     // and as it stands on the ground
+    float shadow;  // width of its shadow on the ground, as far as the stripe itself does not hide that
+};
+
+// Part of the way from point k - 1 to point k, in the order of `order`, that is free as seen along `lean`. A point keeps off what
+// it passes in the way before or after it, if it lies higher: which of two sheets of a fold is on top, their points say.
+vec2 burin_open_part(BurinStyle style, vec2 scales, float order, float lean, int k) {
+    vec2 last = burin_shade_point(style, scales, order > 0.0f ? k - 1 : style.count - k);
+    vec2 next = burin_shade_point(style, scales, order > 0.0f ? k : style.count - 1 - k);
+    float from = order * (last.x - lean * last.y);
+    float to = order * (next.x - lean * next.y);
+    vec2 open = vec2(from, to);
+    for (int j = 0; j < BURIN_MAX_PROFILE_POINTS; ++j) {
+        vec2 point = burin_shade_point(style, scales, order > 0.0f ? j : style.count - 1 - j);
+        float way = order * (point.x - lean * point.y);
+        if (j < k && point.y < last.y) open.x = max(open.x, way);
+        if (j >= k && point.y < next.y) open.y = min(open.y, way);
+        if (j + 1 >= style.count) break;
+    }
+    float wide = to - from;
+    return wide > 0.0f ? clamp((open - vec2(from, from)) * (1.0f / wide), 0.0f, 1.0f) : vec2(1.0f, 1.0f);
+}
+
+BurinFar burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool shadows, vec3 ground) {
     BurinStyle style = burin_style(kind.style);
     vec2 normal = burin_normal_of(kind.tangent);
     vec2 scales = vec2(1.0f, kind.height);
@@ -22,7 +48,10 @@ vec3 burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool shadow
     float lean = dot(slope, normal);
     float order = lean < 0.0f ? -1.0f : 1.0f;
     bool same = shade.order == order;
-    vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    BurinFar far;
+    far.color = vec3(0.0f, 0.0f, 0.0f);
+    far.shown = 0.0f;
+    far.own = 0.0f;
     float run = -1.0e30f;
     vec2 last = vec2(0.0f, 0.0f);
     float last_way = 0.0f;
@@ -31,27 +60,45 @@ vec3 burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool shadow
         int i = order > 0.0f ? k : style.count - 1 - k;
         vec2 point = burin_shade_point(style, scales, i);
         float way = order * (point.x - lean * point.y);
-        float seen = k > 0 ? burin_hidden(run, last_way, way) : 1.0f;
-        if (seen < 1.0f) {
-            float hidden = shade.hidden[order > 0.0f ? k - 1 : i];
-            float from = clamp(same ? hidden : 0.0f, seen, 1.0f);
-            float to = clamp(same ? 1.0f : 1.0f - hidden, seen, 1.0f);
+        vec2 seen = vec2(k > 0 ? burin_hidden(run, last_way, way) : 1.0f, 1.0f);
+        float hidden = k > 0 ? shade.hidden[order > 0.0f ? k - 1 : i] : 0.0f;
+        vec2 lit = vec2(same ? hidden : 0.0f, same ? 1.0f : 1.0f - hidden);
+        if (shade.folded && k > 0) {
+            seen = burin_open_part(style, scales, order, lean, k);
+            if (shadows) lit = burin_open_part(style, scales, shade.order, bend.light.y, same ? k : style.count - k);
+            if (shadows && !same) lit = vec2(1.0f, 1.0f) - vec2(lit.y, lit.x);
+        }
+        if (seen.x < seen.y) {
             vec2 across = (point - last) * order;
             vec3 n = vec3(normal * across.y, across.x);
             vec2 middle = (last + point) * 0.5f;
             BurinFacet facet;
             facet.normal = normalize(n);
             facet.material = style.material;
-            facet.lit = max(to - from, 0.0f) / (1.0f - seen);
+            facet.lit = max(min(lit.y, seen.y) - max(lit.x, seen.x), 0.0f) / (seen.y - seen.x);
             facet.drop = style.level + middle.y;
             facet.nook = burin_nook(style, scales, normal, vec2(middle.x / style.reach, -middle.y / (scales.y * burin_map.depth)));
-            sum = sum + (burin_facet_color(facet) - ground) * ((1.0f - seen) * (way - last_way));
+            float wide = (seen.y - seen.x) * (way - last_way);
+            far.color = far.color + (burin_facet_color(facet) - ground) * wide;
+            far.shown = far.shown + wide;
         }
+        far.own = far.own + (k > 0 ? order * (point.x - last.x) : 0.0f);
         run = max(run, way);
         last = point;
         last_way = way;
     }
-    float shadow = shade.beyond - (same ? max(run - last_way, 0.0f) : 0.0f);
-    if (shadow > 0.0f) sum = sum + (burin_shadow_color() - ground) * shadow;
-    return sum * (1.0f / style.reach);
+    far.color = far.color * (1.0f / style.reach);
+    far.shown = far.shown / style.reach;
+    far.own = far.own / style.reach;
+    far.shadow = max(shade.beyond - (same ? max(run - last_way, 0.0f) : 0.0f), 0.0f) / style.reach;
+    return far;
+}
+
+// Colour less that of lit ground, of all stripes. Where they stand they are beside each other; what they hide and shade of the
+// rest falls wherever it happens to, on ground and stripes alike.
+vec3 burin_far_sum(BurinFar far, vec3 ground) {
+    float clear = max(1.0f - far.own, 1.0e-3f);
+    float seen = max(clear - max(far.shown - far.own, 0.0f), 0.0f);
+    float shaded = seen * (1.0f - exp(-far.shadow / clear));
+    return far.color * ((1.0f - seen) / max(far.shown, 1.0e-4f)) + (burin_shadow_color() - ground) * shaded;
 }

@@ -36,16 +36,17 @@ bool burin_end_is_smooth(BurinEnd end, float lean) {
 
 // Places around an end that stripes do not describe: caps and joins; and, where another feature begins there, what ray
 // and light reach past the end though the profile alone would keep them off. `way` and `light_way`: metres that they move
-// over the plane within the profile.
-uint burin_end_mask(BurinEnd end, BurinFootprint footprint, vec2 place, float reach, float lean, vec2 way, vec2 light_way) {
+// over the plane within the profile. `stands_out`: of its ground.
+uint burin_end_mask(BurinEnd end, BurinFootprint footprint, vec2 place, float reach, float lean, vec2 way, vec2 light_way, bool stands_out) {
     if (burin_end_is_smooth(end, lean)) return 0u;
     bool plain = burin_end_is_plain(end);
     float seen = dot(way, end.inward);
     float lit = dot(light_way, end.inward);
     float tip = plain ? abs(lean) * reach : (end.priority == BURIN_PRIORITY_NONE ? 0.0f : reach);
     float back = max(max(seen, lit), 0.0f) + abs(seen) + (plain ? tip : 0.0f) + 1.0e-3f * reach;
-    // Where nothing goes on beyond, the end of what stands out throws a shadow of its own.
-    bool last = !plain || (end.priority == BURIN_PRIORITY_BOTH && end.shape == BURIN_END_TEE);
+    // Where nothing goes on beyond, the end of what stands out throws a shadow of its own; and so does the ridge of a corner,
+    // with as many bends as the profile has.
+    bool last = !plain || stands_out || (end.priority == BURIN_PRIORITY_BOTH && end.shape == BURIN_END_TEE);
     float ahead = abs(seen) + tip + (last ? max(-lit, 0.0f) : 0.0f) + 1.0e-3f * reach;
     vec2 side = end.normal * (reach + abs(dot(way, end.normal)) + (last ? abs(dot(light_way, end.normal)) : 0.0f));
     vec2 a = end.vertex - place + end.inward * back;
@@ -134,8 +135,8 @@ bool burin_shows(BurinElement e, BurinCell cell, BurinRay ray, BurinFootprint fo
     float relief = burin_map.drop_range.y - burin_map.drop_range.x;
     vec2 way = ray.slope * relief;
     vec2 light_way = light_slope * (shadows ? relief : 0.0f);
-    shown.marks = burin_end_mask(start, footprint, place, wide, lean.x, way, light_way) |
-                  burin_end_mask(end, footprint, place, wide, lean.y, way, light_way);
+    shown.marks = burin_end_mask(start, footprint, place, wide, lean.x, way, light_way, stands_out) |
+                  burin_end_mask(end, footprint, place, wide, lean.y, way, light_way, stands_out);
     shown.e = e;
     shown.style = style;
     shown.stretch = burin_stretch_of(e, place, reach, tips);
@@ -201,6 +202,10 @@ vec4 burin_region_box(BurinRay ray, BurinFootprint footprint, vec2 drops) {
     return vec4(floor(low.x), floor(low.y), floor(high.x), floor(high.y));
 }
 
+float burin_cells_in(vec4 box) {
+    return (box.z - box.x + 1.0f) * (box.w - box.y + 1.0f);
+}
+
 // The elements around a pixel, each once: cells share them.
 struct BurinGathered {
     uint references[BURIN_MAX_REGION_ELEMENTS];
@@ -215,14 +220,16 @@ BurinGathered burin_gathered;
 struct BurinSpan {
     ivec2 low;
     ivec2 sides;
-    float fullness;  // how much of what it may span
+    float fullness;  // how much of what it may span the pixel does, on the object surface
     bool inside;     // of a map that does not repeat
+    bool short_way;  // what lies under the pixel is not too much to look at
 };
 
 BurinSpan burin_span(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, float ground_drop) {
     vec4 box = burin_region_box(ray, footprint, burin_map.drop_range);
     BurinSpan span;
-    span.fullness = (box.z - box.x + 1.0f) * (box.w - box.y + 1.0f) / float(BURIN_MAX_REGION_CELLS);
+    span.fullness = burin_cells_in(burin_region_box(ray, footprint, vec2(ground_drop, ground_drop))) / float(BURIN_MAX_REGION_CELLS);
+    span.short_way = burin_cells_in(box) <= float(BURIN_MAX_REGION_CELLS);
     // What rises above the ground throws shadows as far as this, where they fall on the lowest surface.
     bool stands_out = ground_drop - burin_map.drop_range.x > BURIN_FILM * burin_map.depth;
     vec2 thrown = light_slope * (shadows && stands_out ? burin_map.drop_range.y - burin_map.drop_range.x : 0.0f);
@@ -232,7 +239,7 @@ BurinSpan burin_span(BurinRay ray, BurinFootprint footprint, vec2 light_slope, b
     vec2 last = vec2(burin_map.cells - ivec2(1, 1));
     span.inside = burin_map.repeats != 0 || (box.x >= 0.0f && box.y >= 0.0f && box.z <= last.x && box.w <= last.y);
     if (burin_map.repeats == 0) wide = vec4(max(wide.x, 0.0f), max(wide.y, 0.0f), min(wide.z, last.x), min(wide.w, last.y));
-    if ((wide.z - wide.x + 1.0f) * (wide.w - wide.y + 1.0f) <= float(BURIN_MAX_REGION_CELLS)) box = wide;
+    if (burin_cells_in(wide) <= float(BURIN_MAX_REGION_CELLS)) box = wide;
     span.low = ivec2(int(box.x), int(box.y));
     span.sides = ivec2(int(box.z), int(box.w)) - span.low + ivec2(1, 1);
     return span;
@@ -289,7 +296,7 @@ void burin_gather_cell(vec2 index, BurinRay ray, float radius, float light_way) 
 void burin_gather(BurinSpan span, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows) {
     float light_way = shadows ? length(light_slope) * (burin_map.drop_range.y - burin_map.drop_range.x) : 0.0f;
     burin_gathered.count = 0;
-    burin_gathered.complete = span.fullness <= 1.0f && span.inside;
+    burin_gathered.complete = span.short_way && span.inside;
     for (int k = 0; k < BURIN_MAX_REGION_CELLS; ++k) {
         if (!burin_gathered.complete) break;
         burin_gather_cell(vec2(span.low + ivec2(k % span.sides.x, k / span.sides.x)), ray, footprint.radius, light_way);

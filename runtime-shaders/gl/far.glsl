@@ -5,7 +5,7 @@ uniform vec4 burin_classes[BURIN_MAX_CLASSES];  // style, tangent, height scale
 
 // Colour less that of lit ground, of a pixel that spans many cells around a place, metres.
 vec3 far_color(vec2 place, vec2 slope, vec2 light_slope, bool shadows, vec3 ground, vec2 along_x, vec2 along_y) {
-    vec3 sum = vec3(0.0);
+    BurinFar sum = BurinFar(vec3(0.0), 0.0, 0.0, 0.0);
     vec4 weights = vec4(0.0);
     vec2 uv = place / burin_map.size;
     for (int k = 0; k < burin_class_count; ++k) {
@@ -16,7 +16,11 @@ vec3 far_color(vec2 place, vec2 slope, vec2 light_slope, bool shadows, vec3 grou
         kind.style = uint(burin_classes[k].x + 0.5);
         kind.tangent = burin_classes[k].yz;
         kind.height = burin_classes[k].w;
-        sum += burin_far_stripe(kind, slope, light_slope, shadows, ground) * weight;
+        BurinFar stripe = burin_far_stripe(kind, slope, light_slope, shadows, ground);
+        sum.color += stripe.color * weight;
+        sum.shown += stripe.shown * weight;
+        sum.own += stripe.own * weight;
+        sum.shadow += stripe.shadow * weight;
     }
-    return sum;
+    return burin_far_sum(sum, ground);
 }
