@@ -17,25 +17,6 @@ struct BurinFar {
     float shadow;  // width of its shadow on the ground, as far as the stripe itself does not hide that
 };
 
-// Part of the way from point k - 1 to point k, in the order of `order`, that is free as seen along `lean`. A point keeps off what
-// it passes in the way before or after it, if it lies higher: which of two sheets of a fold is on top, their points say.
-vec2 burin_open_part(BurinStyle style, vec2 scales, float order, float lean, int k) {
-    vec2 last = burin_shade_point(style, scales, order > 0.0f ? k - 1 : style.count - k);
-    vec2 next = burin_shade_point(style, scales, order > 0.0f ? k : style.count - 1 - k);
-    float from = order * (last.x - lean * last.y);
-    float to = order * (next.x - lean * next.y);
-    vec2 open = vec2(from, to);
-    for (int j = 0; j < BURIN_MAX_PROFILE_POINTS; ++j) {
-        vec2 point = burin_shade_point(style, scales, order > 0.0f ? j : style.count - 1 - j);
-        float way = order * (point.x - lean * point.y);
-        if (j < k && point.y < last.y) open.x = max(open.x, way);
-        if (j >= k && point.y < next.y) open.y = min(open.y, way);
-        if (j + 1 >= style.count) break;
-    }
-    float wide = to - from;
-    return wide > 0.0f ? clamp((open - vec2(from, from)) * (1.0f / wide), 0.0f, 1.0f) : vec2(1.0f, 1.0f);
-}
-
 BurinFar burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool shadows, vec3 ground) {
     BurinStyle style = burin_style(kind.style);
     vec2 normal = burin_normal_of(kind.tangent);
@@ -45,7 +26,9 @@ BurinFar burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool sh
     bend.slope = 0.0f;
     bend.curvature = 0.0f;
     BurinShade shade = burin_shade_profile(style, scales, bend, shadows);
-    float lean = dot(slope, normal);
+    BurinBend eye = bend;
+    eye.light = vec2(dot(slope, kind.tangent), dot(slope, normal));
+    float lean = eye.light.y;
     float order = lean < 0.0f ? -1.0f : 1.0f;
     bool same = shade.order == order;
     BurinFar far;
@@ -53,6 +36,8 @@ BurinFar burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool sh
     far.shown = 0.0f;
     far.own = 0.0f;
     float run = -1.0e30f;
+    float least = 1.0e30f;
+    float first_way = 0.0f;
     vec2 last = vec2(0.0f, 0.0f);
     float last_way = 0.0f;
     for (int k = 0; k < BURIN_MAX_PROFILE_POINTS; ++k) {
@@ -61,13 +46,11 @@ BurinFar burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool sh
         vec2 point = burin_shade_point(style, scales, i);
         float way = order * (point.x - lean * point.y);
         vec2 seen = vec2(k > 0 ? burin_hidden(run, last_way, way) : 1.0f, 1.0f);
-        float hidden = k > 0 ? shade.hidden[order > 0.0f ? k - 1 : i] : 0.0f;
-        vec2 lit = vec2(same ? hidden : 0.0f, same ? 1.0f : 1.0f - hidden);
-        if (shade.folded && k > 0) {
-            seen = burin_open_part(style, scales, order, lean, k);
-            if (shadows) lit = burin_open_part(style, scales, shade.order, bend.light.y, same ? k : style.count - k);
-            if (shadows && !same) lit = vec2(1.0f, 1.0f) - vec2(lit.y, lit.x);
-        }
+#if BURIN_FOLDS != 0
+        if (shade.folded && k > 0) seen = burin_open_part(style, scales, order, eye, k);
+#endif
+        vec2 lit = k > 0 ? burin_lit_part(shade, order > 0.0f ? k - 1 : i) : vec2(0.0f, 1.0f);
+        if (!same) lit = vec2(1.0f - lit.y, 1.0f - lit.x);
         if (seen.x < seen.y) {
             vec2 across = (point - last) * order;
             vec3 n = vec3(normal * across.y, across.x);
@@ -84,21 +67,27 @@ BurinFar burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool sh
         }
         far.own = far.own + (k > 0 ? order * (point.x - last.x) : 0.0f);
         run = max(run, way);
+        least = min(least, way);
+        if (k == 0) first_way = way;
         last = point;
         last_way = way;
     }
     far.color = far.color * (1.0f / style.reach);
     far.shown = far.shown / style.reach;
     far.own = far.own / style.reach;
-    far.shadow = max(shade.beyond - (same ? max(run - last_way, 0.0f) : 0.0f), 0.0f) / style.reach;
+    float before = first_way - least;
+    float behind = run - last_way;
+    far.shadow = max(shade.behind.length - (same ? behind : before), 0.0f) / style.reach;
+#if BURIN_FOLDS != 0
+    far.shadow = far.shadow + max(shade.before.length - (same ? before : behind), 0.0f) / style.reach;
+#endif
     return far;
 }
 
-// Colour less that of lit ground, of all stripes. Where they stand they are beside each other; what they hide and shade of the
-// rest falls wherever it happens to, on ground and stripes alike.
+// Colour less that of lit ground, of all stripes: beside each other as long as there is ground left, the shadows on what they
+// leave of it. A pattern drawn by hand or from a map seldom has stripes over each other before it is full.
 vec3 burin_far_sum(BurinFar far, vec3 ground) {
-    float clear = max(1.0f - far.own, 1.0e-3f);
-    float seen = max(clear - max(far.shown - far.own, 0.0f), 0.0f);
-    float shaded = seen * (1.0f - exp(-far.shadow / clear));
+    float seen = max(1.0f - max(far.shown, far.own), 0.0f);
+    float shaded = min(far.shadow, seen);
     return far.color * ((1.0f - seen) / max(far.shown, 1.0e-4f)) + (burin_shadow_color() - ground) * shaded;
 }

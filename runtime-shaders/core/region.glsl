@@ -117,11 +117,13 @@ bool burin_shows(BurinElement e, BurinCell cell, BurinRay ray, BurinFootprint fo
                  BURIN_OUT(BurinShown) shown) {
     BurinStyle style = burin_style(e.style);
     float wide = style.reach * burin_widest(e);
-    float high = max(style.level - cell.highest, cell.lowest - style.level);
+    // What lies lower than its ground cuts whatever stands there, wherever that is known.
+    float highest = cell.lowest - style.level > BURIN_FILM * burin_map.depth ? burin_map.drop_range.x : cell.highest;
+    float high = max(style.level - highest, cell.lowest - style.level);
     BurinReachOf reach;
     reach.spread = length(ray.slope) * high;
-    bool stands_out = style.level - cell.highest > BURIN_FILM * burin_map.depth;
-    float shadow = shadows && stands_out ? (burin_map.drop_range.y - cell.highest) * length(light_slope) : 0.0f;
+    bool stands_out = style.level - highest > BURIN_FILM * burin_map.depth;
+    float shadow = shadows && stands_out ? (burin_map.drop_range.y - highest) * length(light_slope) : 0.0f;
     vec2 place = ray.slope * style.level;
     reach.along = footprint.radius + reach.spread + shadow;
     reach.across = wide + footprint.radius + reach.spread + shadow;

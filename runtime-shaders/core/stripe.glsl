@@ -132,6 +132,19 @@ BurinRail burin_thrown_rail(BurinElement e, BurinStyle style, BurinStretch stret
     return rail;
 }
 
+// The one that is first, or last, is now the other, at the stretch's start or end.
+void burin_take_start(BURIN_INOUT(BurinRail) rail, BurinRail other) {
+    rail.from = other.from;
+    rail.first = other.first;
+    rail.at_first = other.at_first;
+}
+
+void burin_take_end(BURIN_INOUT(BurinRail) rail, BurinRail other) {
+    rail.to = other.to;
+    rail.last = other.last;
+    rail.at_last = other.at_last;
+}
+
 BurinRail burin_rail(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
                      vec2 point) {
     BurinThrown thrown;
@@ -191,16 +204,33 @@ vec3 burin_facet_normal(BurinElement e, BurinStyle style, BurinRail left, BurinR
     return length(n) > 0.0f ? normalize(n) : vec3(0.0f, 0.0f, 1.0f);
 }
 
+// A shadow on the ground beside a profile: from `foot`, where that ground begins, on.
+struct BurinCast {
+    vec2 caster;   // points of the profile
+    vec2 foot;
+    float length;  // metres across the path; 0: none
+};
+
 // What the light passes over on its way across the profile: the part of each facet that it does not reach, counted from
-// where it comes from, and the length of the shadow on the ground behind.
+// where it comes from, and the shadows on the ground.
 struct BurinShade {
     float hidden[BURIN_MAX_PROFILE_POINTS];
-    vec2 caster;   // point that the shadow on the ground behind comes from
-    vec2 last;     // point where that ground begins
-    float beyond;  // metres across the path, of that shadow
+    BurinCast behind;
     float order;  // +1: the light runs from left to right
     bool folded;  // the profile is no height field
+#if BURIN_FOLDS != 0
+    float until[BURIN_MAX_PROFILE_POINTS];  // then what lies behind may stand over a facet too: the light reaches it up to here
+    BurinCast before;                       // and what leans towards the light, over the ground
+#endif
 };
+
+// The part of a facet that the light reaches, counted along its way.
+vec2 burin_lit_part(BurinShade shade, int facet) {
+#if BURIN_FOLDS != 0
+    if (shade.folded) return vec2(shade.hidden[facet], shade.until[facet]);
+#endif
+    return vec2(shade.hidden[facet], 1.0f);
+}
 
 // Part of the way from `last` to `next` that lies behind `run`.
 float burin_hidden(float run, float last, float next) {
@@ -239,17 +269,96 @@ vec2 burin_shade_point(BurinStyle style, vec2 scales, int i) {
     return vec2(point.x * style.reach * scales.x, -point.y * scales.y * burin_map.depth);
 }
 
+#if BURIN_FOLDS != 0
+
+bool burin_is_folded(BurinStyle style) {
+    float last = -2.0f;
+    bool folded = false;
+    for (int k = 0; k < BURIN_MAX_PROFILE_POINTS; ++k) {
+        float b = burin_profile_point(style, k).x;
+        folded = folded || b < last - 1.0e-5f;
+        last = b;
+        if (k + 1 >= style.count) break;
+    }
+    return folded;
+}
+
+// What an edge keeps off of the way from `last` to `next`: `from` and `to` are how far these lie beyond it, as seen along a line.
+// An edge that comes earlier in the profile keeps off what lies before it, a later one what lies behind, unless the way runs above it:
+// which of two sheets of a fold is on top, their points say.
+vec2 burin_past_edge(float from, float to, vec2 last, vec2 next, vec2 edge, bool later) {
+    float at = clamp(from / (from < to ? from - to : -1.0e-30f), 0.0f, 1.0f);
+    if (edge.y >= mix(last.y, next.y, at)) return vec2(0.0f, 1.0f);
+    return later ? vec2(0.0f, at) : vec2(at, 1.0f);
+}
+
+// Part of the way from point k - 1 to point k, in the order of `order`, that is free as seen along the bend's light.
+vec2 burin_open_part(BurinStyle style, vec2 scales, float order, BurinBend bend, int k) {
+    vec2 last = burin_shade_point(style, scales, order > 0.0f ? k - 1 : style.count - k);
+    vec2 next = burin_shade_point(style, scales, order > 0.0f ? k : style.count - 1 - k);
+    vec2 open = vec2(order * burin_clearance(bend, next, last) > 0.0f ? 0.0f : 1.0f, 1.0f);
+    for (int j = 0; j < BURIN_MAX_PROFILE_POINTS; ++j) {
+        vec2 edge = burin_shade_point(style, scales, order > 0.0f ? j : style.count - 1 - j);
+        if (j != k - 1 && j != k) {
+            float from = order * burin_clearance(bend, last, edge);
+            float to = order * burin_clearance(bend, next, edge);
+            vec2 past = burin_past_edge(from, to, last, next, edge, j > k);
+            open = vec2(max(open.x, past.x), min(open.y, past.y));
+        }
+        if (j + 1 >= style.count) break;
+    }
+    return open;
+}
+
+// Of a profile that is no height field: every point may stand before or over every facet.
+BurinShade burin_shade_folded(BurinStyle style, vec2 scales, BurinBend bend, bool shadows) {
+    BurinShade shade;
+    shade.order = bend.light.y < 0.0f ? -1.0f : 1.0f;
+    shade.folded = true;
+    bool left = shade.order > 0.0f;
+    shade.before.length = 0.0f;
+    shade.behind.length = 0.0f;
+    shade.before.foot = burin_profile_point(style, left ? 0 : style.count - 1);
+    shade.behind.foot = burin_profile_point(style, left ? style.count - 1 : 0);
+    vec2 first = burin_shade_point(style, scales, left ? 0 : style.count - 1);
+    vec2 end = burin_shade_point(style, scales, left ? style.count - 1 : 0);
+    for (int k = 0; k < BURIN_MAX_PROFILE_POINTS; ++k) {
+        vec2 code = burin_profile_point(style, left ? k : style.count - 1 - k);
+        vec2 point = burin_shade_point(style, scales, left ? k : style.count - 1 - k);
+        float over_first = shadows && point.y < first.y ? shade.order * burin_clearance(bend, first, point) : 0.0f;
+        float over_end = shadows && point.y < end.y ? -shade.order * burin_clearance(bend, end, point) : 0.0f;
+        if (over_first > shade.before.length) shade.before.caster = code;
+        if (over_end > shade.behind.length) shade.behind.caster = code;
+        shade.before.length = max(shade.before.length, over_first);
+        shade.behind.length = max(shade.behind.length, over_end);
+        vec2 lit = vec2(0.0f, 1.0f);
+        if (shadows && k > 0) lit = burin_open_part(style, scales, shade.order, bend, k);
+        int facet = left ? k - 1 : style.count - 1 - k;
+        if (k > 0) {
+            shade.hidden[facet] = lit.x;
+            shade.until[facet] = lit.y;
+        }
+        if (k + 1 >= style.count) break;
+    }
+    return shade;
+}
+
+#endif
+
 BurinShade burin_shade_profile(BurinStyle style, vec2 scales, BurinBend bend, bool shadows) {
     BurinShade shade;
     shade.order = bend.light.y < 0.0f ? -1.0f : 1.0f;
+    shade.behind.length = 0.0f;
     shade.folded = false;
-    shade.beyond = 0.0f;
+#if BURIN_FOLDS != 0
+    shade.before.length = 0.0f;
+    if (burin_is_folded(style)) return burin_shade_folded(style, scales, bend, shadows);
+#endif
     vec2 last = vec2(0.0f, 0.0f);
     int rim = 0;  // of a straight path: the point that keeps most light off what follows
     for (int k = 0; k < BURIN_MAX_PROFILE_POINTS; ++k) {
         int i = shade.order > 0.0f ? k : style.count - 1 - k;
         vec2 point = burin_shade_point(style, scales, i);
-        if (k > 0 && shade.order * (point.x - last.x) < -1.0e-5f * style.reach) shade.folded = true;
         float hidden = 0.0f;
         float least = 0.0f;
         for (int n = 0; n < BURIN_MAX_PROFILE_POINTS; ++n) {
@@ -262,15 +371,15 @@ BurinShade burin_shade_profile(BurinStyle style, vec2 scales, BurinBend bend, bo
             hidden = max(hidden, to > 0.0f ? clamp(from / min(from - to, -1.0e-30f), 0.0f, 1.0f) : 1.0f);
             if (to < least) {
                 least = to;
-                shade.caster = burin_profile_point(style, shade.order > 0.0f ? j : style.count - 1 - j);
+                shade.behind.caster = burin_profile_point(style, shade.order > 0.0f ? j : style.count - 1 - j);
             }
             if (bend.curvature == 0.0f) break;
         }
         if (hidden < 1.0f) rim = k;
         if (k > 0) shade.hidden[shade.order > 0.0f ? k - 1 : i] = shadows ? hidden : 0.0f;
         if (k == style.count - 1) {
-            shade.beyond = shadows ? -least : 0.0f;
-            shade.last = burin_profile_point(style, i);
+            shade.behind.length = shadows ? -least : 0.0f;
+            shade.behind.foot = burin_profile_point(style, i);
         }
         last = point;
         if (k + 1 >= style.count) break;
@@ -288,16 +397,16 @@ float burin_facet_middle(BurinRail left, BurinRail right, float radius) {
     return 0.5f * (clamp(at - radius / wide, 0.0f, 1.0f) + clamp(at + radius / wide, 0.0f, 1.0f));
 }
 
-// One facet, from the rail that the ray passes first: `seen` of the way to the next one is hidden, and the light misses the
-// first `hidden` of it, counted along the light's way.
-void burin_add_facet(BurinElement e, BurinStyle style, BurinStretch stretch, float radius, BurinRail last, BurinRail next, vec2 seen, float order,
-                     float hidden, bool same, BURIN_INOUT(BurinRegion) region) {
+// One facet, from the rail that the ray passes first. Of the way to the next one `seen` is hidden, and what lies beyond `until`; the
+// light reaches the part `shone`.
+void burin_add_facet(BurinElement e, BurinStyle style, BurinStretch stretch, float radius, BurinRail last, BurinRail next, vec2 seen, float until,
+                     float order, vec2 shone, BURIN_INOUT(BurinRegion) region) {
     vec2 one = vec2(1.0f, 1.0f);
-    float area = burin_strip_area(last, next, seen, one);
+    float area = burin_strip_area(last, next, seen, one * until);
     if (area <= 0.0f) return;
-    vec2 from = clamp(one * (same ? hidden : 0.0f), seen, one);
-    vec2 to = clamp(one * (same ? 1.0f : 1.0f - hidden), seen, one);
-    float lit = burin_strip_area(last, next, from, to);
+    vec2 from = clamp(one * shone.x, seen, one * until);
+    vec2 to = clamp(one * shone.y, seen, one * until);
+    float lit = shone.x < shone.y ? burin_strip_area(last, next, from, to) : 0.0f;
     BurinRail left = last;
     BurinRail right = next;
     if (order < 0.0f) {
@@ -315,6 +424,28 @@ void burin_add_facet(BurinElement e, BurinStyle style, BurinStretch stretch, flo
     region.color = region.color + (burin_facet_color(facet) - region.ground) * area;
 }
 
+// Adds a shadow on the ground beside the stripe, of which the first `covered` metres are hidden: from `near` on. Returns the places.
+// `deep`: whatever is lower than that ground lies in the shadow too.
+uint burin_add_cast(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope, vec2 light_slope,
+                    BurinCast shadow, BurinRail near, float covered, bool deep, BURIN_INOUT(BurinRegion) region) {
+    BurinRail rim = near;
+    // First the shadow on whatever is lower than the ground, then that on the ground, as far as the profile does not hide it.
+    for (int k = deep ? 0 : 1; k < (covered < shadow.length ? 2 : 1); ++k) {
+        BurinThrown thrown;
+        thrown.point = shadow.caster;
+        thrown.below = (shadow.caster.y - shadow.foot.y) * stretch.scales.y * burin_map.depth;
+        if (k == 0) thrown.below = burin_map.drop_range.y - style.level + shadow.caster.y * stretch.scales.y * burin_map.depth;
+        thrown.shift = light_slope * thrown.below;
+        rim = burin_thrown_rail(e, style, stretch, footprint, slope, thrown);
+        if (k == 0) region.deep_shadow = region.deep_shadow | burin_strip_mask(near, rim);
+    }
+    if (covered >= shadow.length) return 0u;
+    float area = burin_strip_area(near, rim, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
+    region.color = region.color + (burin_shadow_color() - region.ground) * area;
+    region.strip_area = region.strip_area + area;
+    return burin_strip_mask(near, rim);
+}
+
 // Adds the facets of one stretch; returns the places that they and their shadow cover.
 uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
                       vec2 light_slope, bool shadows, BURIN_INOUT(BurinRegion) region) {
@@ -323,53 +454,69 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
     bool same = shade.order == order;
     BurinRail first = burin_rail(e, style, stretch, footprint, slope, burin_profile_point(style, order > 0.0f ? 0 : style.count - 1));
     BurinRail last = first;
+    BurinRail front = first;
     BurinRail far = first;
+    vec2 least = first.way * order;
     vec2 run = first.way * order;
+    bool sunk = false;
     for (int k = 1; k < BURIN_MAX_PROFILE_POINTS; ++k) {
         int i = order > 0.0f ? k : style.count - 1 - k;
         BurinRail next = burin_rail(e, style, stretch, footprint, slope, burin_profile_point(style, i));
         vec2 seen = vec2(burin_hidden(run.x, last.way.x * order, next.way.x * order),
                          burin_hidden(run.y, last.way.y * order, next.way.y * order));
-        if (min(seen.x, seen.y) < 1.0f && !shade.folded)
-            burin_add_facet(e, style, stretch, footprint.radius, last, next, seen, order, shade.hidden[order > 0.0f ? k - 1 : i], same, region);
-        if (next.way.x * order > run.x) {
-            far.from = next.from;
-            far.first = next.first;
-            far.at_first = next.at_first;
+        float until = 1.0f;
+#if BURIN_FOLDS != 0
+        if (shade.folded) {
+            vec2 open = burin_open_part(style, stretch.scales, order, burin_bend(e, stretch, slope, slope), k);
+            seen = vec2(open.x, open.x);
+            until = open.y;
         }
-        if (next.way.y * order > run.y) {
-            far.to = next.to;
-            far.last = next.last;
-            far.at_last = next.at_last;
-        }
+        if (next.way.x * order < least.x) burin_take_start(front, next);
+        if (next.way.y * order < least.y) burin_take_end(front, next);
+        least = min(least, next.way * order);
+#endif
+        vec2 shone = burin_lit_part(shade, order > 0.0f ? k - 1 : i);
+        if (!same) shone = vec2(1.0f - shone.y, 1.0f - shone.x);
+        if (min(seen.x, seen.y) < until)
+            burin_add_facet(e, style, stretch, footprint.radius, last, next, seen, until, order, shone, region);
+        if (next.way.x * order > run.x) burin_take_start(far, next);
+        if (next.way.y * order > run.y) burin_take_end(far, next);
         run = max(run, next.way * order);
+        sunk = sunk || next.drop - style.level > BURIN_FILM * burin_map.depth;
         last = next;
         if (k + 1 >= style.count) break;
     }
-    uint mask = burin_strip_mask(first, far);
+    uint mask = burin_strip_mask(front, far);
     vec2 whole = vec2(1.0f, 1.0f);
-    region.strip_area = region.strip_area + burin_strip_area(first, far, whole * 0.0f, whole);
-    if (shade.folded) region.special = 0xffffu;
-    if (shade.folded || shade.beyond <= 0.0f) return mask;
-    BurinRail near = first;
-    if (same) near = far;
-    BurinRail rim = near;
-    // First the shadow on whatever is lower than the ground, then that on the ground, as far as the profile does not hide it.
-    float behind = same ? max(run.x - last.way.x * order, 0.0f) : 0.0f;
-    bool deep = burin_map.drop_range.y - style.level > 2.0f * BURIN_FILM * burin_map.depth;
-    for (int k = deep ? 0 : 1; k < (behind < shade.beyond ? 2 : 1); ++k) {
+    float area = burin_strip_area(front, far, whole * 0.0f, whole);
+    // What is taken away is taken from all that stands over it, and from its shadow.
+    float over = style.level - burin_map.drop_range.x;
+    bool taken = sunk && over > BURIN_FILM * burin_map.depth;
+    for (int k = taken ? 0 : 2; k < (shadows ? 2 : 1); ++k) {
         BurinThrown thrown;
-        thrown.point = shade.caster;
-        thrown.below = (shade.caster.y - shade.last.y) * stretch.scales.y * burin_map.depth;
-        if (k == 0) thrown.below = burin_map.drop_range.y - style.level + shade.caster.y * stretch.scales.y * burin_map.depth;
-        thrown.shift = light_slope * thrown.below;
-        rim = burin_thrown_rail(e, style, stretch, footprint, slope, thrown);
-        if (k == 0) region.deep_shadow = region.deep_shadow | burin_strip_mask(near, rim);
+        thrown.point = burin_profile_point(style, (k == 0 ? order : shade.order) > 0.0f ? style.count - 1 : 0);
+        thrown.below = k == 0 ? -over : 0.0f;
+        thrown.shift = light_slope * (k == 0 ? 0.0f : over);
+        BurinRail end = burin_thrown_rail(e, style, stretch, footprint, slope, thrown);
+        BurinRail start = front;
+        if (k == 1 && !same) start = far;
+        mask = mask | burin_strip_mask(start, end);
+        area = max(area, burin_strip_area(start, end, whole * 0.0f, whole));
     }
-    if (behind >= shade.beyond) return mask;
-    float area = burin_strip_area(near, rim, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
-    vec3 color = burin_shadow_color();
-    region.color = region.color + (color - region.ground) * area;
     region.strip_area = region.strip_area + area;
-    return mask | burin_strip_mask(near, rim);
+    // Metres of the ground on either side, as the eye's ray comes to it, that the profile hides.
+    float before = max(first.way.x * order - least.x, 0.0f);
+    float behind = max(run.x - last.way.x * order, 0.0f);
+    bool deep = burin_map.drop_range.y - style.level > 2.0f * BURIN_FILM * burin_map.depth;
+    BurinRail lee = front;
+    if (same) lee = far;
+    if (shade.behind.length > 0.0f)
+        mask = mask | burin_add_cast(e, style, stretch, footprint, slope, light_slope, shade.behind, lee, same ? behind : before, deep, region);
+#if BURIN_FOLDS != 0
+    BurinRail sunward = far;
+    if (same) sunward = front;
+    if (shade.before.length > 0.0f)
+        mask = mask | burin_add_cast(e, style, stretch, footprint, slope, light_slope, shade.before, sunward, same ? before : behind, false, region);
+#endif
+    return mask;
 }

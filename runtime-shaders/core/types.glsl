@@ -23,6 +23,10 @@
 #ifndef BURIN_STEPS
 #define BURIN_STEPS 1
 #endif
+// Whether any profile is no height field.
+#ifndef BURIN_FOLDS
+#define BURIN_FOLDS 1
+#endif
 // Whether any mesh is round: 0 where all second derivatives are zero.
 #ifndef BURIN_ROUND
 #define BURIN_ROUND 1

@@ -12,6 +12,16 @@ bool is_round(const EndCode& end) {
 
 bool is_tapered(const ElementCode& element) { return element.width0 != element.width1 || element.height0 != element.height1; }
 
+bool is_folded(const PackedTextures& textures, const StyleCode& style) {
+    const auto offset = [&](std::uint32_t i) {
+        const Texel texel = data_texel(textures, textures.sections.profiles_begin() + style.profile_texel + i / 4);
+        return unpack_profile_point(texel[i % 4]).b;
+    };
+    for (std::uint32_t i = 1; i < style.point_count; ++i)
+        if (offset(i) < offset(i - 1)) return true;
+    return false;
+}
+
 }  // namespace
 
 PatternKinds kinds_of(const PackedTextures& textures) {
@@ -29,13 +39,16 @@ PatternKinds kinds_of(const PackedTextures& textures) {
         at += element_texel_count(data_texel(textures, at));
     }
     kinds.bends = kinds.bends || kinds.curves || kinds.functions != 0;
-    for (std::uint32_t at = sections.styles_begin(); at < sections.profiles_begin(); ++at)
-        kinds.steps = kinds.steps || unpack_style(data_texel(textures, at)).step;
+    for (std::uint32_t at = sections.styles_begin(); at < sections.profiles_begin(); ++at) {
+        const StyleCode style = unpack_style(data_texel(textures, at));
+        kinds.steps = kinds.steps || style.step;
+        kinds.folds = kinds.folds || is_folded(textures, style);
+    }
     return kinds;
 }
 
 PatternKinds join_kinds(const PatternKinds& a, const PatternKinds& b) {
-    return {a.functions | b.functions, a.curves || b.curves, a.bends || b.bends, a.steps || b.steps};
+    return {a.functions | b.functions, a.curves || b.curves, a.bends || b.bends, a.steps || b.steps, a.folds || b.folds};
 }
 
 std::string kinds_text(const PatternKinds& kinds) {
@@ -43,7 +56,8 @@ std::string kinds_text(const PatternKinds& kinds) {
         return std::string("#define ") + macro + " " + std::to_string(value) + "\n";
     };
     return line("BURIN_FUNCTION_KINDS", kinds.functions) + line("BURIN_CURVES", kinds.curves ? 1 : 0) +
-           line("BURIN_BENDS", kinds.bends ? 1 : 0) + line("BURIN_STEPS", kinds.steps ? 1 : 0);
+           line("BURIN_BENDS", kinds.bends ? 1 : 0) + line("BURIN_STEPS", kinds.steps ? 1 : 0) +
+           line("BURIN_FOLDS", kinds.folds ? 1 : 0);
 }
 
 }  // namespace burin::gl

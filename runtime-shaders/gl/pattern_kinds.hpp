@@ -12,6 +12,7 @@ struct PatternKinds {
     bool curves = false;  // quadratics
     bool bends = false;   // anything beside which a straight ray has a bent section
     bool steps = false;
+    bool folds = false;  // profiles that are no height fields
 };
 
 // Cost: one look at every element and style.

@@ -12,6 +12,7 @@
 #include "gl/look_textures.hpp"
 #include "gl/pixel_filter.h"
 #include "gl/program.hpp"
+#include "gl/sample_places.hpp"
 
 namespace burin {
 namespace {
@@ -408,28 +409,6 @@ class Accumulator {
     std::vector<std::uint8_t> wanted_;  // 255 or 0 per pixel, lower row first
 };
 
-// A grid of side x side places within a pixel, -0.5 to 0.5.
-std::vector<Vec2> ray_places(int side) {
-    std::vector<Vec2> places;
-    for (int k = 0; k < side * side; ++k)
-        places.push_back({(k % side + 0.5) / side - 0.5, (k / side + 0.5) / side - 0.5});
-    return places;
-}
-
-// The same in an order whose first four spread.
-std::vector<Vec2> sample_places(int side) {
-    std::vector<Vec2> places = ray_places(side);
-    for (std::size_t i = 0; i < 4 && places.size() > 4; ++i) {
-        // Corners of a square turned by about 27 degrees.
-        const double turn = 0.4636 + 1.5708 * double(i);
-        const Vec2 wish{0.28 * std::cos(turn), 0.28 * std::sin(turn)};
-        const auto nearer = [&](Vec2 a, Vec2 b) { return length(a - wish) < length(b - wish); };
-        std::iter_swap(places.begin() + std::ptrdiff_t(i),
-                       std::min_element(places.begin() + std::ptrdiff_t(i), places.end(), nearer));
-    }
-    return places;
-}
-
 // A texture of one byte per pixel on unit 2, from which the shader reads where to draw.
 class WantedTexture {
   public:
@@ -452,20 +431,24 @@ class WantedTexture {
     GLuint name_ = 0;
 };
 
-// Rays per side of a pixel: an even number, so that they fall into quarters.
+// Samples per side of a pixel.
+int sample_side(const RenderOptions& options) { return int(std::ceil(std::sqrt(double(options.samples)) - 1e-9)); }
+
+// Rays per side of a sample: an even number, so that they fall into quarters.
 int ray_side(const RenderOptions& options) { return 2 * int(std::ceil(std::sqrt(double(options.rays)) / 2.0 - 1e-9)); }
 
 // Draws samples of one picture: all in one run of a shader, or areas and rays in runs of two.
 class Painter {
   public:
-    // All must outlive it. `pixel_part`: side of what a sample is filtered over, in pixels.
-    Painter(const gl::Functions& gl, const Asset& asset, const RenderOptions& options, const gl::FloatTarget& target, float pixel_part)
-        : gl_(gl), asset_(asset), options_(options), target_(target), pixel_part_(pixel_part),
+    // All must outlive it.
+    Painter(const gl::Functions& gl, const Asset& asset, const RenderOptions& options, const gl::FloatTarget& target)
+        : gl_(gl), asset_(asset), options_(options), target_(target),
           scene_(load_scene(gl, asset, options)), view_(place_camera(asset, options)), wanted_(gl) {}
 
     // Linear colours of the pixels that are wanted, lower row first; `place` within the pixel.
     Result<std::vector<float>> draw_sample(Vec2 place, const std::vector<std::uint8_t>& wanted) {
         matrix_ = projection(view_, options_, place.x, place.y);
+        sample_ = place;
         const bool regions = options_.antialiasing == Antialiasing::regions;
         const bool marked = regions && !options_.one_run;
         const int filter = marked ? FILTER_MARKED : regions ? FILTER_REGIONS : FILTER_RAYS;
@@ -488,7 +471,8 @@ class Painter {
         if (options_.environment)
             scene_.environment->bind(*built, options_.environment->rotation, options_.environment->strength);
         built->set("side", ray_side(options_));
-        built->set("pixel_part", pixel_part_);
+        built->set("cells", ray_side(options_) * sample_side(options_));
+        built->set("pixel_part", 1.0f / float(sample_side(options_)));
         built->set("wanted", 2);
         return &*built;
     }
@@ -501,6 +485,8 @@ class Painter {
         wanted_.set(wanted, options_.width, options_.height);
         gl_.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix_));
         program.set("ray_place", float(ray_place.x), float(ray_place.y));
+        const double cells = sample_side(options_) * ray_side(options_);
+        program.set("first_cell", float(std::floor((sample_.x + 0.5) * cells)), float(std::floor((sample_.y + 0.5) * cells)));
         draw_pass(gl_, program, asset_, scene_);
         return target_.read(0);
     }
@@ -510,7 +496,7 @@ class Painter {
         std::vector<std::uint8_t> marks(pixels.size() / 4);
         for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = std::uint8_t(pixels[4 * i + 3]);
         if (std::all_of(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark == 0; })) return Done{};
-        for (const Vec2 place : ray_places(ray_side(options_))) {
+        for (const Vec2 place : gl::ray_places(ray_side(options_), sample_, sample_side(options_))) {
             const auto found = draw(FILTER_RAYS, place, marks);
             if (!found) return found.error();
             const int quarter = (place.x < 0.0 ? 0 : 1) + (place.y < 0.0 ? 0 : 2);
@@ -526,11 +512,11 @@ class Painter {
     const Asset& asset_;
     const RenderOptions& options_;
     const gl::FloatTarget& target_;
-    float pixel_part_;
     Scene scene_;
     View view_;
     WantedTexture wanted_;
     glm::mat4 matrix_{1.0f};
+    Vec2 sample_{};  // at hand
     std::array<std::optional<gl::Program>, 3> programs_;  // by FILTER_*
 };
 
@@ -566,8 +552,8 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]),
                   to_linear(options.background[2]), 0.0f);
     (*target)->bind();
-    const std::vector<Vec2> places = sample_places(int(std::ceil(std::sqrt(double(options.samples)) - 1e-9)));
-    Painter painter(gl, asset, options, **target, float(1.0 / std::round(std::sqrt(double(places.size())))));
+    const std::vector<Vec2> places = gl::sample_places(sample_side(options), options.antialiasing == Antialiasing::regions);
+    Painter painter(gl, asset, options, **target);
     Accumulator sums(options.width, options.height);
     for (std::size_t k = 0; k < places.size(); ++k) {
         if (k == 4) sums.keep_uneven();

@@ -5,6 +5,8 @@ uniform vec3 view;          // direction of an orthographic one; zero for perspe
 uniform int has_detail;
 uniform int shadows;
 uniform int side;           // rays per side of the pixel: even, 2 to 8
+uniform int cells;          // of the pixel, per side, one for each ray of all its samples
+uniform vec2 first_cell;    // of this sample
 uniform vec2 ray_place;     // of FILTER_RAYS, within the pixel, -0.5 to 0.5
 uniform float pixel_part;   // side of what is filtered, in pixels: below 1 where several pictures are averaged
 uniform highp sampler2D wanted;  // one texel per pixel, a bit per quarter: 0 where the picture needs no further sample
@@ -185,16 +187,27 @@ uint sum_areas(BurinRay straight, float drop, vec2 along_x, vec2 along_y, BURIN_
 
 #if PIXEL_FILTER == FILTER_REGIONS
 
+// As spread_place in gl/sample_places.hpp.
+float within_cell(int line) {
+    int turn = line < cells / 2 ? 2 * line + 1 : 2 * (line - cells / 2);
+    return cells < 4 ? 0.5 : 0.25 + 0.5 * (float(turn) + 0.5) / float(cells);
+}
+
 // Adds the mean colours of the parts asked for, by count x count rays each: one loop over the rays of them all.
 void sum_rays(BurinRay ray, vec2 along_x, vec2 along_y, uint asked, int count, BURIN_INOUT(vec3) sum, BURIN_INOUT(float) parts) {
     vec4 met = vec4(0.0);
     int k = 0;
     for (int n = 0; n < 64; ++n) {
         if (asked == 0u) break;
-        Part part = part_of(ray, along_x, along_y, burin_lowest_bit(asked));
+        int index = burin_lowest_bit(asked);
+        Part part = part_of(ray, along_x, along_y, index);
         look_x = part.along_x / float(count);
         look_y = part.along_y / float(count);
-        vec2 at = (vec2(float(k % count), float(k / count)) + 0.5) / float(count) - 0.5;
+        vec2 own = vec2(float(k % count), float(k / count));
+        vec2 cell = first_cell + own;
+        if (index > 0) cell += vec2(float((index - 1) % 2), float((index - 1) / 2)) * float(count);
+        vec2 within = vec2(within_cell(int(cell.y + 0.5)), within_cell(int(cell.x + 0.5)));
+        vec2 at = (own + within) / float(count) - 0.5;
         BurinRay sample_ray = part.ray;
         sample_ray.origin = part.ray.origin + part.along_x * at.x + part.along_y * at.y;
         float way;
