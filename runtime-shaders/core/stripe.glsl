@@ -154,6 +154,25 @@ BurinRail burin_rail(BurinElement e, BurinStyle style, BurinStretch stretch, Bur
     return burin_thrown_rail(e, style, stretch, footprint, slope, thrown);
 }
 
+// A curve's rails are followed as far as the pixel is wide, each beside it. Rails that run at different angles, many pixels apart,
+// would leave the pixel out between them: by so many pixels they are drawn on at both ends.
+struct BurinBeyond {
+    vec2 a;
+    vec2 b;
+};
+
+BurinBeyond burin_beyond(vec2 a_from, vec2 a_to, vec2 b_from, vec2 b_to) {
+    BurinBeyond beyond;
+    vec2 along_a = a_to - a_from;
+    vec2 along_b = b_to - b_from;
+    along_a = along_a * (1.0f / max(length(along_a), 1.0e-20f));
+    along_b = along_b * (1.0f / max(length(along_b), 1.0e-20f));
+    float far = 0.5f * length(a_from - b_from) * abs(burin_cross(along_a, along_b));
+    beyond.a = along_a * far;
+    beyond.b = along_b * far;
+    return beyond;
+}
+
 // Share of the pixel between two rails, from `from` to `to` of the way between them, each at the start and at the end.
 // Where one of them is cut off by the stretch's end, both are followed to it.
 float burin_strip_area(BurinRail a, BurinRail b, vec2 from, vec2 to) {
@@ -161,15 +180,28 @@ float burin_strip_area(BurinRail a, BurinRail b, vec2 from, vec2 to) {
     vec2 p1 = mix(a.from, b.from, to.x);
     vec2 q0 = mix(a.to, b.to, from.y);
     vec2 q1 = mix(a.to, b.to, to.y);
+    bool start = a.at_first || b.at_first;
+    bool end = a.at_last || b.at_last;
+#if BURIN_CURVES != 0 || BURIN_FUNCTION_KINDS != 0
+    BurinBeyond beyond = burin_beyond(p0, q0, p1, q1);
+    if (!start) {
+        p0 = p0 - beyond.a;
+        p1 = p1 - beyond.b;
+    }
+    if (!end) {
+        q0 = q0 + beyond.a;
+        q1 = q1 + beyond.b;
+    }
+#endif
     float area = burin_edge_area(p0, q0) + burin_edge_area(q1, p1);
-    if (a.at_first || b.at_first) {
+    if (start) {
         vec2 r0 = mix(a.first, b.first, from.x);
         vec2 r1 = mix(a.first, b.first, to.x);
         area = area + burin_edge_area(p1, r1) + burin_edge_area(r1, r0) + burin_edge_area(r0, p0);
     } else {
         area = area + burin_edge_area(p1, p0);
     }
-    if (a.at_last || b.at_last) {
+    if (end) {
         vec2 r0 = mix(a.last, b.last, from.y);
         vec2 r1 = mix(a.last, b.last, to.y);
         area = area + burin_edge_area(q0, r0) + burin_edge_area(r0, r1) + burin_edge_area(r1, q1);
@@ -182,7 +214,9 @@ float burin_strip_area(BurinRail a, BurinRail b, vec2 from, vec2 to) {
 uint burin_strip_mask(BurinRail a, BurinRail b) {
     bool start = a.at_first || b.at_first;
     bool end = a.at_last || b.at_last;
-    return burin_quad_mask(start ? a.first : a.from, start ? b.first : b.from, end ? b.last : b.to, end ? a.last : a.to);
+    BurinBeyond beyond = burin_beyond(a.from, a.to, b.from, b.to);
+    return burin_quad_mask(start ? a.first : a.from - beyond.a, start ? b.first : b.from - beyond.b, end ? b.last : b.to + beyond.b,
+                           end ? a.last : a.to + beyond.a);
 }
 
 // Unit normal, z up, of the facet between two rails, the left one first, where it is nearest to the pixel's centre.

@@ -477,14 +477,15 @@ class Painter {
         return &*built;
     }
 
-    Result<std::vector<float>> draw(int filter, Vec2 ray_place, const std::vector<std::uint8_t>& wanted) {
+    Result<std::vector<float>> draw(int filter, const gl::RayPlace& place, const std::vector<std::uint8_t>& wanted) {
         const auto chosen = program(filter);
         if (!chosen) return chosen.error();
         const gl::Program& program = **chosen;
         program.use();
         wanted_.set(wanted, options_.width, options_.height);
         gl_.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix_));
-        program.set("ray_place", float(ray_place.x), float(ray_place.y));
+        program.set("ray_place", float(place.middle.x), float(place.middle.y));
+        program.set("ray_shift", float(place.shift.x), float(place.shift.y));
         const double cells = sample_side(options_) * ray_side(options_);
         program.set("first_cell", float(std::floor((sample_.x + 0.5) * cells)), float(std::floor((sample_.y + 0.5) * cells)));
         draw_pass(gl_, program, asset_, scene_);
@@ -496,10 +497,10 @@ class Painter {
         std::vector<std::uint8_t> marks(pixels.size() / 4);
         for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = std::uint8_t(pixels[4 * i + 3]);
         if (std::all_of(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark == 0; })) return Done{};
-        for (const Vec2 place : gl::ray_places(ray_side(options_), sample_, sample_side(options_))) {
+        for (const gl::RayPlace& place : gl::ray_places(ray_side(options_), sample_, sample_side(options_))) {
             const auto found = draw(FILTER_RAYS, place, marks);
             if (!found) return found.error();
-            const int quarter = (place.x < 0.0 ? 0 : 1) + (place.y < 0.0 ? 0 : 2);
+            const int quarter = (place.middle.x < 0.0 ? 0 : 1) + (place.middle.y < 0.0 ? 0 : 2);
             const float share = 1.0f / float(ray_side(options_) * ray_side(options_));
             for (std::size_t i = 0; i < marks.size(); ++i)
                 if ((marks[i] >> quarter & 1) != 0)
@@ -552,7 +553,7 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]),
                   to_linear(options.background[2]), 0.0f);
     (*target)->bind();
-    const std::vector<Vec2> places = gl::sample_places(sample_side(options), options.antialiasing == Antialiasing::regions);
+    const std::vector<Vec2> places = gl::sample_places(sample_side(options));
     Painter painter(gl, asset, options, **target);
     Accumulator sums(options.width, options.height);
     for (std::size_t k = 0; k < places.size(); ++k) {

@@ -7,15 +7,18 @@
 
 namespace burin::gl {
 
-// Of a grid of side x side cells: their middles up to 2 x 2, which is what [2010] 5.7 asks for ("halfway to the corners"). From 4 x 4
-// on each place moves within its cell, by a half of what would keep any two from sharing a row or a column. Edges within a few
-// degrees of the picture's sides, as most are at grazing angles, are filtered 4 dB better than by the middles, others as well.
-Vec2 spread_place(int column, int row, int side);
+// A picture's samples: the middles of side x side cells, in an order whose first four spread.
+std::vector<Vec2> sample_places(int side);
 
-// A picture's samples, in an order whose first four spread. `filtered`: each stands for its cell, and so lies in the middle.
-std::vector<Vec2> sample_places(int side, bool filtered);
+struct RayPlace {
+    Vec2 middle;  // of the ray's cell
+    Vec2 shift;   // from there, for rays at grazing angles
+};
 
-// A sample's side x side rays, row by row, in units of its cell. `sample`: one of sample_places(samples, true).
-std::vector<Vec2> ray_places(int side, Vec2 sample, int samples);
+// A sample's side x side rays, row by row, in units of its cell; `sample` is one of sample_places(samples). Of up to 2 x 2 per pixel
+// all lie in the middles of their cells, which is what [2010] 5.7 asks for ("halfway to the corners"). From 4 x 4 on they may be
+// moved so that no two share a row or a column of the pixel. Middles are best for edges that run anyhow; but at grazing angles most
+// run along the horizon, and rays that share no row meet them at side^2 places instead of side: 4 dB.
+std::vector<RayPlace> ray_places(int side, Vec2 sample, int samples);
 
 }  // namespace burin::gl

@@ -8,6 +8,7 @@ uniform int side;           // rays per side of the pixel: even, 2 to 8
 uniform int cells;          // of the pixel, per side, one for each ray of all its samples
 uniform vec2 first_cell;    // of this sample
 uniform vec2 ray_place;     // of FILTER_RAYS, within the pixel, -0.5 to 0.5
+uniform vec2 ray_shift;     // and by how much it lies elsewhere at grazing angles
 uniform float pixel_part;   // side of what is filtered, in pixels: below 1 where several pictures are averaged
 uniform highp sampler2D wanted;  // one texel per pixel, a bit per quarter: 0 where the picture needs no further sample
 layout(location = 0) out vec4 color;
@@ -99,6 +100,11 @@ vec4 point_color(BurinRay ray, BURIN_OUT(float) way) {
     return met ? vec4(burin_facet_color(facet), 1.0) : vec4(0.0);
 }
 
+// How far the rays of a pixel leave the middles of their cells: by 55 degrees not, by 76 half of what they might.
+float shifted(vec2 slope) {
+    return 0.5 * smoothstep(1.5, 4.0, length(slope));
+}
+
 #if PIXEL_FILTER != FILTER_RAYS
 
 // A pixel, or a quarter of one.
@@ -187,10 +193,10 @@ uint sum_areas(BurinRay straight, float drop, vec2 along_x, vec2 along_y, BURIN_
 
 #if PIXEL_FILTER == FILTER_REGIONS
 
-// As spread_place in gl/sample_places.hpp.
-float within_cell(int line) {
+// As gl/sample_places.hpp says, in cells.
+float shift_of(int line) {
     int turn = line < cells / 2 ? 2 * line + 1 : 2 * (line - cells / 2);
-    return cells < 4 ? 0.5 : 0.25 + 0.5 * (float(turn) + 0.5) / float(cells);
+    return cells < 4 ? 0.0 : (float(turn) + 0.5) / float(cells) - 0.5;
 }
 
 // Adds the mean colours of the parts asked for, by count x count rays each: one loop over the rays of them all.
@@ -206,8 +212,8 @@ void sum_rays(BurinRay ray, vec2 along_x, vec2 along_y, uint asked, int count, B
         vec2 own = vec2(float(k % count), float(k / count));
         vec2 cell = first_cell + own;
         if (index > 0) cell += vec2(float((index - 1) % 2), float((index - 1) / 2)) * float(count);
-        vec2 within = vec2(within_cell(int(cell.y + 0.5)), within_cell(int(cell.x + 0.5)));
-        vec2 at = (own + within) / float(count) - 0.5;
+        vec2 shift = vec2(shift_of(int(cell.y + 0.5)), shift_of(int(cell.x + 0.5))) * shifted(ray.slope);
+        vec2 at = (own + 0.5 + shift) / float(count) - 0.5;
         BurinRay sample_ray = part.ray;
         sample_ray.origin = part.ray.origin + part.along_x * at.x + part.along_y * at.y;
         float way;
@@ -233,7 +239,8 @@ vec4 pixel_color(BurinRay ray, BURIN_OUT(int) marks, BURIN_OUT(float) way) {
     vec2 along_x = look_x;
     vec2 along_y = look_y;
 #if PIXEL_FILTER == FILTER_RAYS
-    ray.origin += along_x * ray_place.x + along_y * ray_place.y;
+    vec2 at = ray_place + ray_shift * shifted(ray.slope);
+    ray.origin += along_x * at.x + along_y * at.y;
     return point_color(ray, way);
 #else
     BurinRay straight = ray;
