@@ -11,7 +11,7 @@ vec2 rest_slopes;    // of the residual
 bool light_above;    // the object surface faces the light; else nothing of it is lit
 
 // Lambert and GGX with Smith's shadowing, for one light; colours linear.
-vec3 shade_lamp(vec3 n, Paint paint, float lit) {
+vec3 shade_lamp(vec3 n, Paint paint) {
     vec3 halfway = normalize(to_eye + light);
     float nl = max(dot(n, light), 0.0);
     float nv = max(dot(n, to_eye), 1.0e-3);
@@ -23,7 +23,7 @@ vec3 shade_lamp(vec3 n, Paint paint, float lit) {
     vec3 f0 = mix(vec3(0.04), paint.albedo, paint.metal);
     vec3 fresnel = f0 + (vec3(1.0) - f0) * pow(1.0 - max(dot(to_eye, halfway), 0.0), 5.0);
     vec3 diffuse = paint.albedo * (1.0 - paint.metal) / 3.14159265;
-    return (diffuse * (vec3(1.0) - fresnel) + fresnel * (d * visible)) * (nl * lit * light_strength);
+    return (diffuse * (vec3(1.0) - fresnel) + fresnel * (d * visible)) * (nl * light_strength);
 }
 
 #ifdef BURIN_ENVIRONMENT
@@ -62,7 +62,7 @@ vec3 shade_surround(vec3 n, Paint paint) {
 vec3 painted_color(BurinFacet facet, Paint paint) {
     vec3 leaning = burin_add_slopes(facet.normal, rest_slopes);
     vec3 n = normalize(transpose(to_pattern) * burin_bend_normal(bend, bend_moved, bend_drop, leaning));
-    vec3 color = shade_lamp(n, paint, light_above ? facet.lit : 0.0) + paint.glow;
+    vec3 color = paint.glow;
 #ifdef BURIN_ENVIRONMENT
     vec3 mirrored = reflect(-to_eye, n);
     float blur = clamp(paint.rough * paint.rough, 0.01, 1.0);
@@ -71,7 +71,9 @@ vec3 painted_color(BurinFacet facet, Paint paint) {
 #else
     color += shade_surround(n, paint);
 #endif
-    return clamp(color, 0.0, 1.0);
+    // What is too bright for the picture is as bright as it shows, before the lit part and the rest of a facet are mixed.
+    vec3 lit = clamp(color + shade_lamp(n, paint), 0.0, 1.0);
+    return mix(clamp(color, 0.0, 1.0), lit, light_above ? facet.lit : 0.0);
 }
 
 vec3 burin_facet_color(BurinFacet facet) {
@@ -96,7 +98,7 @@ vec3 mesh_color(vec3 n) {
     look.along_x = look_x;
     look.along_y = look_y;
     Paint paint = paint_of(0u, look);
-    vec3 color = shade_lamp(n, paint, 1.0) + paint.glow;
+    vec3 color = shade_lamp(n, paint) + paint.glow;
 #ifdef BURIN_ENVIRONMENT
     BurinSky sky;
     sky.open = 1.0;
