@@ -113,17 +113,16 @@ struct BurinShown {
 };
 
 // Whether the element shows.
-bool burin_shows(BurinElement e, BurinCell cell, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows,
+bool burin_shows(BurinElement e, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows,
                  BURIN_OUT(BurinShown) shown) {
     BurinStyle style = burin_style(e.style);
     float wide = style.reach * burin_widest(e);
-    // What lies lower than its ground cuts whatever stands there, wherever that is known.
-    float highest = cell.lowest - style.level > BURIN_FILM * burin_map.depth ? burin_map.drop_range.x : cell.highest;
-    float high = max(style.level - highest, cell.lowest - style.level);
+    // Of the map: a cell that names the element need not be where it is highest, nor know what it cuts.
+    float high = max(style.level - burin_map.drop_range.x, burin_map.drop_range.y - style.level);
     BurinReachOf reach;
     reach.spread = length(ray.slope) * high;
-    bool stands_out = style.level - highest > BURIN_FILM * burin_map.depth;
-    float shadow = shadows && stands_out ? (burin_map.drop_range.y - highest) * length(light_slope) : 0.0f;
+    bool stands_out = style.stepped || style.level - burin_map.drop_range.x > BURIN_FILM * burin_map.depth;
+    float shadow = shadows && stands_out ? (burin_map.drop_range.y - burin_map.drop_range.x) * length(light_slope) : 0.0f;
     vec2 place = ray.slope * style.level;
     reach.along = footprint.radius + reach.spread + shadow;
     reach.across = wide + footprint.radius + reach.spread + shadow;
@@ -149,6 +148,24 @@ bool burin_shows(BurinElement e, BurinCell cell, BurinRay ray, BurinFootprint fo
     return shown.stretch.limits.y >= shown.stretch.limits.x;
 }
 
+// The cell of the map at a place of the plane of cells, which repeats.
+BurinCell burin_wrapped_cell(vec2 index) {
+    return burin_cell(ivec2(index - floor(index / vec2(burin_map.cells)) * vec2(burin_map.cells)));
+}
+
+vec2 burin_cell_centre(vec2 index) {
+    return (index + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
+}
+
+#if BURIN_STEPS != 0
+// Drop of the ground at a place of the plane; `place` is its metres from the ray's origin.
+float burin_ground_at(BurinRay ray, vec2 place) {
+    vec2 index = floor((ray.origin + place) / burin_map.size * vec2(burin_map.cells));
+    vec2 centre = burin_cell_centre(index);
+    return burin_step_line(burin_wrapped_cell(index), ray, centre, centre * burin_map.size - ray.origin, place, 0.0f, true).level;
+}
+#endif
+
 void burin_add_shown(BurinShown shown, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows,
                      BURIN_INOUT(BurinRegion) region) {
     BurinElement e = shown.e;
@@ -156,14 +173,15 @@ void burin_add_shown(BurinShown shown, BurinRay ray, BurinFootprint footprint, v
     vec2 limits = stretch.limits;
     uint mask = 0u;
     region.deep_shadow = 0u;
+    region.thrown = 0u;
     int pieces = burin_piece_count(e, limits, footprint.radius);
     float centre = stretch.middle;
     for (int i = 0; i < 8; ++i) {
         stretch.limits = vec2(mix(limits.x, limits.y, float(i) / float(pieces)),
                               mix(limits.x, limits.y, float(i + 1) / float(pieces)));
         stretch.lean = vec2(stretch.limits.x <= 0.0f ? shown.lean.x : 0.0f, stretch.limits.y >= 1.0f ? shown.lean.y : 0.0f);
-        stretch.near_first = i == 0 && limits.x <= 0.0f;
-        stretch.near_last = i == pieces - 1 && limits.y >= 1.0f;
+        stretch.near_first = i > 0 || limits.x <= 0.0f;
+        stretch.near_last = i < pieces - 1 || limits.y >= 1.0f;
         if (pieces > 1) {
             stretch.middle = clamp(centre, stretch.limits.x, stretch.limits.y);
             stretch.normal = burin_normal_of(burin_direction(burin_path_rate(e, stretch.middle), e.t0));
@@ -187,6 +205,12 @@ void burin_add_shown(BurinShown shown, BurinRay ray, BurinFootprint footprint, v
     region.strip_area = 0.0f;
     if (area * region.covered_area > BURIN_LEAST_AREA) region.special = region.special | (region.covered & mask);
     region.special = region.special | (region.covered & region.deep_shadow) | (region.deep_shadows & mask);
+#if BURIN_STEPS != 0
+    // The ground that the shadow is meant for may end before it does.
+    float foot = dot(light_slope, stretch.normal) > 0.0f ? shown.style.right_level : shown.style.level;
+    if (region.thrown != 0u && abs(burin_ground_at(ray, ray.slope * foot) - foot) > BURIN_FILM * burin_map.depth)
+        region.special = region.special | region.thrown;
+#endif
     region.covered = region.covered | mask;
     region.deep_shadows = region.deep_shadows | region.deep_shadow;
     region.covered_area = region.covered_area + area;
@@ -245,15 +269,6 @@ BurinSpan burin_span(BurinRay ray, BurinFootprint footprint, vec2 light_slope, b
     span.low = ivec2(int(box.x), int(box.y));
     span.sides = ivec2(int(box.z), int(box.w)) - span.low + ivec2(1, 1);
     return span;
-}
-
-// The cell of the map at a place of the plane of cells, which repeats.
-BurinCell burin_wrapped_cell(vec2 index) {
-    return burin_cell(ivec2(index - floor(index / vec2(burin_map.cells)) * vec2(burin_map.cells)));
-}
-
-vec2 burin_cell_centre(vec2 index) {
-    return (index + vec2(0.5f, 0.5f)) / vec2(burin_map.cells);
 }
 
 // Whether the element comes so near that it may show, or want rays for its ends: a rough question, at a fraction of what
@@ -315,6 +330,7 @@ BurinRegion burin_no_region(vec3 ground, float fullness) {
     region.bent = false;
     region.deep_shadows = 0u;
     region.deep_shadow = 0u;
+    region.thrown = 0u;
     region.covered_area = 0.0f;
     region.strip_area = 0.0f;
     region.elements = 0;
@@ -344,7 +360,7 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
             uint reference = burin_gathered.references[j];
             vec2 home = burin_gathered.homes[j];
             BurinElement e = burin_element(reference, ray.origin, burin_cell_centre(home));
-            shows = burin_shows(e, burin_wrapped_cell(home), ray, footprint, light_slope, shadows, shown);
+            shows = burin_shows(e, ray, footprint, light_slope, shadows, shown);
             region.special = region.special | shown.marks;
             if (whole && (shows || shown.marks != 0u)) {
                 burin_gathered.references[kept] = reference;

@@ -14,6 +14,7 @@ struct BurinRegion {
     bool bent;     // nor do they describe a feature that shows, nor would they in parts of the pixel
     uint deep_shadows;   // places where shadows of the elements so far fall on whatever is lower than their ground
     uint deep_shadow;     // the same of the element at hand
+    uint thrown;          // places of its shadow on the ground
     float covered_area;  // sum of what the elements so far cover
     float strip_area;    // the same of the element at hand
     int elements;        // that show in the pixel
@@ -106,7 +107,8 @@ BurinRail burin_thrown_rail(BurinElement e, BurinStyle style, BurinStretch stret
     if (e.curved || e.waved) {
         // On the inner side of a bend the rail is shorter than the path.
         float room = 2.0f * stretch.room / length(burin_path_rate(e, rail.middle));
-        range = clamp(vec2(rail.middle - room, rail.middle + room), vec2(ends.x, ends.x), vec2(ends.y, ends.y));
+        float beside = clamp(rail.middle, ends.x, ends.y);
+        range = clamp(vec2(beside - room, beside + room), vec2(ends.x, ends.x), vec2(ends.y, ends.y));
     }
 #endif
     vec3 from = burin_rail_end(e, style, stretch, footprint, slope, thrown, range.x);
@@ -154,8 +156,8 @@ BurinRail burin_rail(BurinElement e, BurinStyle style, BurinStretch stretch, Bur
     return burin_thrown_rail(e, style, stretch, footprint, slope, thrown);
 }
 
-// A curve's rails are followed as far as the pixel is wide, each beside it. Rails that run at different angles, many pixels apart,
-// would leave the pixel out between them: by so many pixels they are drawn on at both ends.
+// A curve's rails are followed as far as the pixel is wide, each beside it or from its end on. Rails that run at different angles, many
+// pixels apart, or begin at different places would leave the pixel out between them: so far are both drawn on at either end.
 struct BurinBeyond {
     vec2 a;
     vec2 b;
@@ -167,7 +169,11 @@ BurinBeyond burin_beyond(vec2 a_from, vec2 a_to, vec2 b_from, vec2 b_to) {
     vec2 along_b = b_to - b_from;
     along_a = along_a * (1.0f / max(length(along_a), 1.0e-20f));
     along_b = along_b * (1.0f / max(length(along_b), 1.0e-20f));
-    float far = 0.5f * length(a_from - b_from) * abs(burin_cross(along_a, along_b));
+    float apart = 0.5f * length(a_from - b_from) * abs(burin_cross(along_a, along_b));
+    vec2 centre = vec2(0.5f, 0.5f);
+    float short_a = max(dot(centre - a_to, along_a), dot(a_from - centre, along_a));
+    float short_b = max(dot(centre - b_to, along_b), dot(b_from - centre, along_b));
+    float far = apart + max(max(short_a, short_b) + 1.5f, 0.0f);
     beyond.a = along_a * far;
     beyond.b = along_b * far;
     return beyond;
@@ -474,16 +480,21 @@ uint burin_add_cast(BurinElement e, BurinStyle style, BurinStretch stretch, Buri
         if (k == 0) region.deep_shadow = region.deep_shadow | burin_strip_mask(near, rim);
     }
     if (covered >= shadow.length) return 0u;
+    // Near one's end but not the other's, which the light has moved along the bend.
+    if (e.curved && (near.at_first != rim.at_first || near.at_last != rim.at_last)) region.special = 0xffffu;
     float area = burin_strip_area(near, rim, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
     region.color = region.color + (burin_shadow_color() - region.ground) * area;
     region.strip_area = region.strip_area + area;
-    return burin_strip_mask(near, rim);
+    uint mask = burin_strip_mask(near, rim);
+    region.thrown = region.thrown | mask;
+    return mask;
 }
 
 // Adds the facets of one stretch; returns the places that they and their shadow cover.
 uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
                       vec2 light_slope, bool shadows, BURIN_INOUT(BurinRegion) region) {
-    BurinShade shade = burin_shade_profile(style, stretch.scales, burin_bend(e, stretch, slope, light_slope), shadows);
+    BurinBend light = burin_bend(e, stretch, slope, light_slope);
+    BurinShade shade = burin_shade_profile(style, stretch.scales, light, shadows);
     float order = dot(slope, stretch.normal) < 0.0f ? -1.0f : 1.0f;
     bool same = shade.order == order;
     BurinRail first = burin_rail(e, style, stretch, footprint, slope, burin_profile_point(style, order > 0.0f ? 0 : style.count - 1));
@@ -493,6 +504,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
     vec2 least = first.way * order;
     vec2 run = first.way * order;
     bool sunk = false;
+    float highest = first.drop;
     for (int k = 1; k < BURIN_MAX_PROFILE_POINTS; ++k) {
         int i = order > 0.0f ? k : style.count - 1 - k;
         BurinRail next = burin_rail(e, style, stretch, footprint, slope, burin_profile_point(style, i));
@@ -516,6 +528,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
         if (next.way.x * order > run.x) burin_take_start(far, next);
         if (next.way.y * order > run.y) burin_take_end(far, next);
         run = max(run, next.way * order);
+        highest = min(highest, next.drop);
         sunk = sunk || next.drop - style.level > BURIN_FILM * burin_map.depth;
         last = next;
         if (k + 1 >= style.count) break;
@@ -525,7 +538,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
     float area = burin_strip_area(front, far, whole * 0.0f, whole);
     // What is taken away is taken from all that stands over it, and from its shadow.
     float over = style.level - burin_map.drop_range.x;
-    bool taken = sunk && over > BURIN_FILM * burin_map.depth;
+    bool taken = sunk && !style.stepped && over > BURIN_FILM * burin_map.depth;
     for (int k = taken ? 0 : 2; k < (shadows ? 2 : 1); ++k) {
         BurinThrown thrown;
         thrown.point = burin_profile_point(style, (k == 0 ? order : shade.order) > 0.0f ? style.count - 1 : 0);
@@ -538,6 +551,12 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
         area = max(area, burin_strip_area(start, end, whole * 0.0f, whole));
     }
     region.strip_area = region.strip_area + area;
+#if BURIN_CURVES != 0
+    // Light that comes past the profile farther along a bend may pass it from the other side.
+    float along = light.light.x * (max(first.drop, last.drop) - highest) / length(burin_path_rate(e, stretch.middle));
+    vec2 there = burin_path_rate(e, clamp(stretch.middle - along, 0.0f, 1.0f));
+    if (shadows && e.curved && dot(light_slope, burin_normal_of(there)) * shade.order < 0.0f) region.special = 0xffffu;
+#endif
     // Metres of the ground on either side, as the eye's ray comes to it, that the profile hides.
     float before = max(first.way.x * order - least.x, 0.0f);
     float behind = max(run.x - last.way.x * order, 0.0f);
