@@ -15,6 +15,10 @@ function(burin_add_test name)
         BURIN_BINARY_DIR="${PROJECT_BINARY_DIR}")
     # Tests assert contracts too.
     target_compile_options(${name} PRIVATE -UNDEBUG)
+    # Unit tests are built longer than they run.
+    if(ARG_LABEL STREQUAL "unit")
+        target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${ARG_TIMEOUT})
 endfunction()
