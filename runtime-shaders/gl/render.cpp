@@ -553,7 +553,8 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]),
                   to_linear(options.background[2]), 0.0f);
     (*target)->bind();
-    const std::vector<Vec2> places = gl::sample_places(sample_side(options));
+    const bool two = options.samples == 2 && options.antialiasing == Antialiasing::points;
+    const std::vector<Vec2> places = two ? gl::two_sample_places() : gl::sample_places(sample_side(options));
     Painter painter(gl, asset, options, **target);
     Accumulator sums(options.width, options.height);
     for (std::size_t k = 0; k < places.size(); ++k) {

@@ -29,6 +29,8 @@ std::vector<Vec2> sample_places(int side) {
     return places;
 }
 
+std::vector<Vec2> two_sample_places() { return {{-0.25, -0.25}, {0.25, 0.25}}; }
+
 std::vector<RayPlace> ray_places(int side, Vec2 sample, int samples) {
     const int first_column = int((sample.x + 0.5) * samples) * side, first_row = int((sample.y + 0.5) * samples) * side;
     const int cells = side * samples;

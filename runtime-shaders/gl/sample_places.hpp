@@ -10,6 +10,9 @@ namespace burin::gl {
 // A picture's samples: the middles of side x side cells, in an order whose first four spread.
 std::vector<Vec2> sample_places(int side);
 
+// Two samples: the halves of a diagonal, halfway to two corners.
+std::vector<Vec2> two_sample_places();
+
 struct RayPlace {
     Vec2 middle;  // of the ray's cell
     Vec2 shift;   // from there, for rays at grazing angles

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -211,6 +212,20 @@ TEST(RenderAsset, RegionsEndAtATee) {
 }
 
 // What an engine does in one run of the shader, and what suits a CPU.
+// At the outline of a plain square a pixel has as many shades as samples can lie in it, and one more.
+TEST(RenderAsset, TwoSamplesAreTwo) {
+    const Asset plane = plane_with(prepare(crossing_pattern()), false);
+    RenderOptions options{.width = 64, .height = 48, .samples = 2, .antialiasing = Antialiasing::points, .backend = backend()};
+    options.camera.orthographic = true;
+    options.light.strength = 0.0;
+    const auto picture = render_asset(plane, options);
+    SKIP_WITHOUT_CONTEXT(picture);
+    ASSERT_TRUE(picture.ok());
+    std::set<int> shades;
+    for (std::size_t i = 0; i < picture->texels.size(); i += 4) shades.insert(picture->texels[i]);
+    EXPECT_EQ(shades.size(), 3u);
+}
+
 TEST(RenderAsset, OneRunDrawsTheSame) {
     const Asset plane = plane_with(prepare(crossing_pattern()));
     RenderOptions options;

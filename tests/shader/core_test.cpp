@@ -48,6 +48,14 @@ std::vector<ShadedHit> shade(const PreparedPattern& pattern, const std::vector<A
     return {};
 }
 
+TEST(CorePatterns, WheelHasSixteenFeaturesInACell) {
+    const PreparedPattern pattern = prepare(wheel_pattern());
+    std::uint32_t most = 0;
+    for (std::uint32_t i = 0; i < pattern.textures.grid.size() / 2; ++i)
+        most = std::max(most, std::uint32_t(unpack_cell(cell_texel(pattern.textures, i)).count));
+    EXPECT_GE(most, 16u);
+}
+
 class CoreTest : public ::testing::TestWithParam<NamedPattern> {};
 
 TEST_P(CoreTest, DecoderAgreesWithTruth) {

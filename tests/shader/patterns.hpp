@@ -147,6 +147,18 @@ inline Pattern star_pattern() {
     return p;
 }
 
+// Sixteen lines within a fiftieth of the tile, so that one cell lists them all.
+inline Pattern wheel_pattern() {
+    Pattern p = base(kRise);
+    p.profiles = {groove(0.02, 0.009), vee(0.03, 0.006), ridge(0.02, 0.005), ridge(0.03, 0.003)};
+    for (std::uint32_t k = 0; k < 16; ++k) {
+        const double angle = 3.14159265358979 * (k + 0.3) / 16.0;
+        const Vec2 along{0.35 * std::cos(angle), 0.35 * std::sin(angle)}, middle{0.5 + 0.01 * std::cos(5.0 * k), 0.5 + 0.01 * std::sin(3.0 * k)};
+        p.paths.push_back(polyline({middle - along, middle + along}, k % 4));
+    }
+    return p;
+}
+
 inline Pattern ends_pattern() {
     Pattern p = base(kRise);
     p.profiles = {groove(0.03, 0.010), ridge(0.03, 0.007)};
@@ -280,6 +292,7 @@ inline std::vector<NamedPattern> authored_patterns() {
             {"round", corner_pattern(JoinKind::round)},
             {"bevel", corner_pattern(JoinKind::bevel)},
             {"star", star_pattern()},
+            {"wheel", wheel_pattern()},
             {"ends", ends_pattern()},
             {"curves", curve_pattern()},
             {"wrapped", wrapped_pattern()},
