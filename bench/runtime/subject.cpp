@@ -133,10 +133,7 @@ Asset asset_of(const Subject& subject, const Extent& extent) {
             plane.uvs.insert(plane.uvs.end(), {float(u), float(v)});
         }
     plane.indices = {0, 2, 1, 1, 2, 3};
-    MaterialInfo material;
-    for (std::size_t i = 0; i < 3; ++i) material.base_color[i] = subject.part().color[i];
-    material.metallic = subject.part().metallic;
-    material.roughness = subject.part().roughness;
+    MaterialInfo material = scenes::material_of(subject.part());
     material.has_detail = true;
     material.detail = subject.prepared.detail;
     material.textures = subject.prepared.textures;

@@ -49,8 +49,7 @@ BurinFar burin_far_stripe(BurinClass kind, vec2 slope, vec2 light_slope, bool sh
 #if BURIN_FOLDS != 0
         if (shade.folded && k > 0) seen = burin_open_part(style, scales, order, eye, k);
 #endif
-        vec2 lit = k > 0 ? burin_lit_part(shade, order > 0.0f ? k - 1 : i) : vec2(0.0f, 1.0f);
-        if (!same) lit = vec2(1.0f - lit.y, 1.0f - lit.x);
+        vec2 lit = k > 0 ? burin_lit_part(shade, order > 0.0f ? k - 1 : i, same) : vec2(0.0f, 1.0f);
         if (seen.x < seen.y) {
             vec2 across = (point - last) * order;
             vec3 n = vec3(normal * across.y, across.x);

@@ -264,12 +264,13 @@ struct BurinShade {
 #endif
 };
 
-// The part of a facet that the light reaches, counted along its way.
-vec2 burin_lit_part(BurinShade shade, int facet) {
+// The part of a facet that the light reaches, counted along the eye's way: `same` as the light's, or the other one.
+vec2 burin_lit_part(BurinShade shade, int facet, bool same) {
+    vec2 lit = vec2(shade.hidden[facet], 1.0f);
 #if BURIN_FOLDS != 0
-    if (shade.folded) return vec2(shade.hidden[facet], shade.until[facet]);
+    if (shade.folded) lit.y = shade.until[facet];
 #endif
-    return vec2(shade.hidden[facet], 1.0f);
+    return same ? lit : vec2(1.0f - lit.y, 1.0f - lit.x);
 }
 
 // Part of the way from `last` to `next` that lies behind `run`.
@@ -494,6 +495,9 @@ uint burin_add_cast(BurinElement e, BurinStyle style, BurinStretch stretch, Buri
 uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, BurinFootprint footprint, vec2 slope,
                       vec2 light_slope, bool shadows, BURIN_INOUT(BurinRegion) region) {
     BurinBend light = burin_bend(e, stretch, slope, light_slope);
+#if BURIN_FOLDS != 0
+    BurinBend eye = burin_bend(e, stretch, slope, slope);
+#endif
     BurinShade shade = burin_shade_profile(style, stretch.scales, light, shadows);
     float order = dot(slope, stretch.normal) < 0.0f ? -1.0f : 1.0f;
     bool same = shade.order == order;
@@ -513,7 +517,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
         float until = 1.0f;
 #if BURIN_FOLDS != 0
         if (shade.folded) {
-            vec2 open = burin_open_part(style, stretch.scales, order, burin_bend(e, stretch, slope, slope), k);
+            vec2 open = burin_open_part(style, stretch.scales, order, eye, k);
             seen = vec2(open.x, open.x);
             until = open.y;
         }
@@ -521,8 +525,7 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
         if (next.way.y * order < least.y) burin_take_end(front, next);
         least = min(least, next.way * order);
 #endif
-        vec2 shone = burin_lit_part(shade, order > 0.0f ? k - 1 : i);
-        if (!same) shone = vec2(1.0f - shone.y, 1.0f - shone.x);
+        vec2 shone = burin_lit_part(shade, order > 0.0f ? k - 1 : i, same);
         if (min(seen.x, seen.y) < until)
             burin_add_facet(e, style, stretch, footprint.radius, last, next, seen, until, order, shone, region);
         if (next.way.x * order > run.x) burin_take_start(far, next);

@@ -14,8 +14,8 @@ bool is_tapered(const ElementCode& element) { return element.width0 != element.w
 
 bool is_folded(const PackedTextures& textures, const StyleCode& style) {
     const auto offset = [&](std::uint32_t i) {
-        const Texel texel = data_texel(textures, textures.sections.profiles_begin() + style.profile_texel + i / 4);
-        return unpack_profile_point(texel[i % 4]).b;
+        const Texel texel = data_texel(textures, textures.sections.profiles_begin() + style.profile_texel + i / BURIN_POINTS_PER_TEXEL);
+        return unpack_profile_point(texel[i % BURIN_POINTS_PER_TEXEL]).b;
     };
     for (std::uint32_t i = 1; i < style.point_count; ++i)
         if (offset(i) < offset(i - 1)) return true;

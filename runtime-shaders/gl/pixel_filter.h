@@ -10,4 +10,9 @@
 #define FILTER_REGIONS 1
 #define FILTER_MARKED 2
 
+// Rays of a pixel of side x side cells, from 4 on, may be moved within them (gl/sample_places.hpp): by so much, in cells, for the line of
+// cells that each lies in, rows for columns. The odd lines come first, so that neighbours lie apart.
+#define LEAST_MOVED_SIDE 4
+#define MOVED_TURN(line, side) ((line) < (side) / 2 ? 2 * (line) + 1 : 2 * ((line) - (side) / 2))
+
 #endif

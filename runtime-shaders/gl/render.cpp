@@ -486,8 +486,8 @@ class Painter {
         gl_.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix_));
         program.set("ray_place", float(place.middle.x), float(place.middle.y));
         program.set("ray_shift", float(place.shift.x), float(place.shift.y));
-        const double cells = sample_side(options_) * ray_side(options_);
-        program.set("first_cell", float(std::floor((sample_.x + 0.5) * cells)), float(std::floor((sample_.y + 0.5) * cells)));
+        const gl::RayCell first = gl::first_ray_cell(ray_side(options_), sample_, sample_side(options_));
+        program.set("first_cell", float(first.column), float(first.row));
         draw_pass(gl_, program, asset_, scene_);
         return target_.read(0);
     }

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gl/pixel_filter.h"
+
 namespace burin::gl {
 namespace {
 
 Vec2 middle_of(int column, int row, int side) { return {(column + 0.5) / side - 0.5, (row + 0.5) / side - 0.5}; }
 
-// From the middle of a cell, in cells: the odd ones first, so that neighbours lie apart.
-double shift_of(int line, int side) {
-    const int turn = line < side / 2 ? 2 * line + 1 : 2 * (line - side / 2);
-    return side < 4 ? 0.0 : (turn + 0.5) / side - 0.5;
-}
+// From the middle of a cell, in cells.
+double shift_of(int line, int side) { return side < LEAST_MOVED_SIDE ? 0.0 : (MOVED_TURN(line, side) + 0.5) / side - 0.5; }
 
 }  // namespace
 
@@ -31,13 +30,17 @@ std::vector<Vec2> sample_places(int side) {
 
 std::vector<Vec2> two_sample_places() { return {{-0.25, -0.25}, {0.25, 0.25}}; }
 
+RayCell first_ray_cell(int side, Vec2 sample, int samples) {
+    return {int((sample.x + 0.5) * samples) * side, int((sample.y + 0.5) * samples) * side};
+}
+
 std::vector<RayPlace> ray_places(int side, Vec2 sample, int samples) {
-    const int first_column = int((sample.x + 0.5) * samples) * side, first_row = int((sample.y + 0.5) * samples) * side;
+    const RayCell first = first_ray_cell(side, sample, samples);
     const int cells = side * samples;
     std::vector<RayPlace> places;
     for (int k = 0; k < side * side; ++k) {
         const int column = k % side, row = k / side;
-        const Vec2 shift{shift_of(first_row + row, cells), shift_of(first_column + column, cells)};
+        const Vec2 shift{shift_of(first.row + row, cells), shift_of(first.column + column, cells)};
         places.push_back({middle_of(column, row, side), shift * (1.0 / side)});
     }
     return places;

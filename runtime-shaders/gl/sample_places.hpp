@@ -13,6 +13,12 @@ std::vector<Vec2> sample_places(int side);
 // Two samples: the halves of a diagonal, halfway to two corners.
 std::vector<Vec2> two_sample_places();
 
+// Of a pixel's samples * side cells to a side, the first one of a sample.
+struct RayCell {
+    int column, row;
+};
+RayCell first_ray_cell(int side, Vec2 sample, int samples);
+
 struct RayPlace {
     Vec2 middle;  // of the ray's cell
     Vec2 shift;   // from there, for rays at grazing angles

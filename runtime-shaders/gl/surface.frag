@@ -193,10 +193,9 @@ uint sum_areas(BurinRay straight, float drop, vec2 along_x, vec2 along_y, BURIN_
 
 #if PIXEL_FILTER == FILTER_REGIONS
 
-// As gl/sample_places.hpp says, in cells.
+// From the middle of a cell, in cells.
 float shift_of(int line) {
-    int turn = line < cells / 2 ? 2 * line + 1 : 2 * (line - cells / 2);
-    return cells < 4 ? 0.0 : (float(turn) + 0.5) / float(cells) - 0.5;
+    return cells < LEAST_MOVED_SIDE ? 0.0 : (float(MOVED_TURN(line, cells)) + 0.5) / float(cells) - 0.5;
 }
 
 // Adds the mean colours of the parts asked for, by count x count rays each: one loop over the rays of them all.

@@ -97,6 +97,14 @@ std::vector<std::uint8_t> to_glb(const std::string& json, const std::vector<std:
 
 }  // namespace
 
+MaterialInfo material_of(const Part& part) {
+    MaterialInfo material;
+    for (std::size_t i = 0; i < 3; ++i) material.base_color[i] = part.color[i];
+    material.metallic = part.metallic;
+    material.roughness = part.roughness;
+    return material;
+}
+
 Model model_of(const Scene& scene) {
     Writer writer;
     for (const Part& part : scene.parts) writer.add(part);

@@ -61,4 +61,7 @@ const std::vector<SceneEntry>& scene_table();
 // The glTF model of a scene, one material per part, without the patterns.
 Model model_of(const Scene& scene);
 
+// What a part's surface looks like, without its pattern.
+MaterialInfo material_of(const Part& part);
+
 }  // namespace burin::scenes

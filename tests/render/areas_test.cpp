@@ -33,10 +33,7 @@ Asset asset_of(const std::string& name) {
     const scenes::Part& part = scene.parts.at(0);
     auto prepared = prepare_pattern(part.pattern, {});
     EXPECT_TRUE(prepared.ok());
-    MaterialInfo material;
-    for (std::size_t i = 0; i < 3; ++i) material.base_color[i] = part.color[i];
-    material.metallic = part.metallic;
-    material.roughness = part.roughness;
+    MaterialInfo material = scenes::material_of(part);
     material.has_detail = true;
     material.detail = prepared->detail;
     material.textures = prepared->textures;

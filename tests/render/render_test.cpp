@@ -211,7 +211,6 @@ TEST(RenderAsset, RegionsEndAtATee) {
     }
 }
 
-// What an engine does in one run of the shader, and what suits a CPU.
 // At the outline of a plain square a pixel has as many shades as samples can lie in it, and one more.
 TEST(RenderAsset, TwoSamplesAreTwo) {
     const Asset plane = plane_with(prepare(crossing_pattern()), false);
@@ -226,6 +225,7 @@ TEST(RenderAsset, TwoSamplesAreTwo) {
     EXPECT_EQ(shades.size(), 3u);
 }
 
+// What an engine does in one run of the shader, and what suits a CPU.
 TEST(RenderAsset, OneRunDrawsTheSame) {
     const Asset plane = plane_with(prepare(crossing_pattern()));
     RenderOptions options;
@@ -233,6 +233,20 @@ TEST(RenderAsset, OneRunDrawsTheSame) {
     options.samples = 1;
     options.rays = 4;
     options.backend = backend();
+    const auto runs = render_asset(plane, options);
+    SKIP_WITHOUT_CONTEXT(runs);
+    options.one_run = true;
+    const auto one = render_asset(plane, options);
+    ASSERT_TRUE(runs.ok() && one.ok());
+    for (std::size_t i = 0; i < runs->texels.size(); ++i) EXPECT_NEAR(runs->texels[i], one->texels[i], 1) << i;
+}
+
+// Where the rays of a pixel leave the middles of their cells, and belong to several samples.
+TEST(RenderAsset, OneRunMovesTheSameRays) {
+    const Asset plane = plane_with(prepare(crossing_pattern()));
+    RenderOptions options{.width = 48, .height = 48, .samples = 4, .rays = 4, .backend = backend()};
+    options.camera.elevation = 12.0;
+    options.camera.zoom = 2.0;
     const auto runs = render_asset(plane, options);
     SKIP_WITHOUT_CONTEXT(runs);
     options.one_run = true;
