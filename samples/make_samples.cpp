@@ -3,6 +3,7 @@
 //     make_samples FOLDER            writes FOLDER/plate.png, 512 x 512, 16 bits, rasterized by the library's evaluator
 //     make_samples FOLDER scenes     writes FOLDER/NAME.glb for every scene of scenes/
 //     make_samples FOLDER NAME       writes this one
+//     make_samples FOLDER NAME FILE  writes this one's first pattern on the only material of another model (.gltf, .glb, .obj)
 //
 // The plate has one of everything a pattern is made of: lines, arcs, a mitred zigzag, crossings, T-junctions, isolated
 // ends, and letters as plateaus with holes.
@@ -204,10 +205,24 @@ int write_scenes(const std::string& folder, const std::string& name) {
     return any ? 0 : report("no scene is called '" + name + "'");
 }
 
+int write_scene_on_model(const std::string& folder, const std::string& name, const std::string& path) {
+    for (const burin::scenes::SceneEntry& entry : burin::scenes::scene_table()) {
+        if (name != entry.name) continue;
+        auto model = burin::read_model(path);
+        if (!model) return report(path + ": " + model.error().message);
+        const auto file = burin::scenes::write_scene_on(entry.make(), std::move(*model));
+        if (!file) return report(name + " on " + path + ": " + file.error().message);
+        const auto written = burin::write_file(folder + "/" + name + ".glb", file->bytes);
+        return written ? 0 : report(written.error().message);
+    }
+    return report("no scene is called '" + name + "'");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc == 2) return write_plate(argv[1]);
     if (argc == 3) return write_scenes(argv[1], argv[2]);
-    return report("usage: make_samples FOLDER [scenes | NAME]");
+    if (argc == 4) return write_scene_on_model(argv[1], argv[2], argv[3]);
+    return report("usage: make_samples FOLDER [scenes | NAME [MODEL]]");
 }

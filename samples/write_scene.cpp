@@ -67,31 +67,48 @@ Result<Packed> pack_part(const Pattern& pattern) {
     return packed;
 }
 
+// The part's pattern on a material of the file's model.
+Result<Model> add_part(SceneFile& file, const Model& model, const Part& part, const std::string& material) {
+    const auto packed = pack_part(part.pattern);
+    if (!packed) return Error{packed.error().code, part.name + ": " + packed.error().message};
+    Residual residual;
+    if (part.erosion > 0.0) {
+        residual = grain(part.erosion);
+        auto png = encode_png(residual.picture);
+        if (!png) return png.error();
+        residual.png = std::move(*png);
+    }
+    auto glb = write_glb(model, packed->textures, packed->detail, packed->fallback, {.material = material}, residual);
+    if (!glb) return glb.error();
+    file.bytes = std::move(*glb);
+    file.elements += packed->elements;
+    file.texture_bytes += 4 * (packed->textures.grid.size() + packed->textures.data.size());
+    return read_model_bytes(file.bytes, "");
+}
+
 }  // namespace
 
 Result<SceneFile> write_scene(const Scene& scene) {
     Model model = model_of(scene);
     SceneFile file;
     for (const Part& part : scene.parts) {
-        const auto packed = pack_part(part.pattern);
-        if (!packed) return Error{packed.error().code, part.name + ": " + packed.error().message};
-        Residual residual;
-        if (part.erosion > 0.0) {
-            residual = grain(part.erosion);
-            auto png = encode_png(residual.picture);
-            if (!png) return png.error();
-            residual.png = std::move(*png);
-        }
-        auto glb = write_glb(model, packed->textures, packed->detail, packed->fallback, {.material = part.name}, residual);
-        if (!glb) return glb.error();
-        file.bytes = std::move(*glb);
-        file.elements += packed->elements;
-        file.texture_bytes += 4 * (packed->textures.grid.size() + packed->textures.data.size());
-        auto again = read_model_bytes(file.bytes, "");
-        if (!again) return again.error();
-        model = std::move(*again);
+        auto next = add_part(file, model, part, part.name);
+        if (!next) return next.error();
+        model = std::move(*next);
     }
     return file;
+}
+
+Result<SceneFile> write_scene_on(const Scene& scene, Model model, const std::string& material) {
+    const auto target = find_material(model, {.material = material});
+    if (!target) return target.error();
+    // Evenly, so that circles stay round where the uvs are.
+    Part part = scene.parts.front();
+    const Vec2 there = target->metres_per_uv, here = part.pattern.size;
+    part.pattern = enlarged(std::move(part.pattern), std::sqrt(there.x * there.y / (here.x * here.y)));
+    SceneFile file;
+    const auto done = add_part(file, model, part, material);
+    return done ? Result<SceneFile>(std::move(file)) : done.error();
 }
 
 }  // namespace burin::scenes

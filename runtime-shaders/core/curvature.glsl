@@ -8,9 +8,8 @@
 //     P(d) = (d, 0) + (xx d.x d.x + 2 xy d.x d.y + yy d.y d.y) / 2 = (over, height),   N(d) ~ (turn over, 1).
 // So a point that is deep against the radius is met at its own scale, 1 - drop / radius, and not at the surface's.
 //
-// A MESH IS MADE OF FLAT TRIANGLES. How far they stand off the round surface that their vertices lie on follows from
-// the second derivatives and from how uv spreads over the triangle: the mean over the corners, with the weights of the point,
-// of u u, u v, v v, less those of the point. The ray is followed from where it passes the round surface.
+// A MESH IS MADE OF FLAT TRIANGLES, and the object surface is those: uv and drop 0 are where the mesh is, as for every other texture
+// of the material. The ray begins on the triangle; only how the surface goes on from there is taken to be round.
 //
 // A RAY THAT RISES. Beside the outline of a convex surface a ray falls, then rises. While it rises its chords still fall, by the
 // least there is, from the height where the curve is: they meet the walls it would meet. Where it comes up through the
@@ -21,10 +20,6 @@
 #define BURIN_CHORD_ERROR 4.0e-3f
 // The most that the offset surface may shrink at the lowest point: where it is rounder than that it would fold.
 #define BURIN_MOST_SHRINK 0.75f
-
-// Square of the angle by which the normal may turn over the spread of a triangle; from there to twice as much the
-// surface counts as flat by and by. About 30 degrees along an edge.
-#define BURIN_MOST_TURN 0.07f
 
 // The most that the surface may turn or stretch over one depth.
 #define BURIN_MOST_CURVE 10.0f
@@ -37,7 +32,6 @@
 
 struct BurinRound {
     bool bent;  // false: flat and evenly stretched; the others are not asked
-    vec3 entry;  // local point of the mesh where the eye's ray passes it
     vec3 xx;    // second derivatives of the surface along the local frame, per metre
     vec3 xy;
     vec3 yy;
@@ -53,7 +47,6 @@ struct BurinSight {
     vec3 along;
     float first;  // s where it begins, and the length of a chord: the line is followed with growing s
     float chord;
-    float fall;     // drop per metre of it where the eye's ray begins
     bool outward;   // it rises with growing s, as a ray to the light does
     vec3 shift;     // (x, y, drop) that is added to all places of the curve
     vec2 near;      // place of its beginning, about
@@ -76,9 +69,8 @@ struct BurinSpot {
     float height;
 };
 
-// Requires: second derivatives along the local frame; the metric (x . x, x . y, y . y) of its first two columns; the
-// spread (of x x, x y, y y) over the triangle.
-BurinRound burin_bend_from(vec3 xx, vec3 xy, vec3 yy, vec3 metric, vec3 spread) {
+// Requires: second derivatives along the local frame; the metric (x . x, x . y, y . y) of its first two columns.
+BurinRound burin_bend_from(vec3 xx, vec3 xy, vec3 yy, vec3 metric) {
     BurinRound bend;
     bend.xx = xx;
     bend.xy = xy;
@@ -97,15 +89,6 @@ BurinRound burin_bend_from(vec3 xx, vec3 xy, vec3 yy, vec3 metric, vec3 spread) 
         bend.turn_x = bend.turn_x * less;
         bend.turn_y = bend.turn_y * less;
     }
-    // Normals that turn far over one triangle are those of a coarse mesh or of an edge, and no round surface.
-    float turned = (dot(bend.turn_x, bend.turn_x) * metric.x * spread.x + dot(bend.turn_y, bend.turn_y) * metric.z * spread.z);
-    float round = clamp(2.0f - turned / BURIN_MOST_TURN, 0.0f, 1.0f);
-    bend.xx = bend.xx * round;
-    bend.xy = bend.xy * round;
-    bend.yy = bend.yy * round;
-    bend.turn_x = bend.turn_x * round;
-    bend.turn_y = bend.turn_y * round;
-    bend.entry = 0.5f * (bend.xx * spread.x + bend.yy * spread.z) + bend.xy * spread.y;
     // What the surface turns and stretches over one depth; less than rounding makes of it is nothing, and far too much is
     // a broken triangle.
     float most = max(max(length(bend.xx), length(bend.xy)), length(bend.yy));
@@ -118,13 +101,13 @@ vec2 burin_slope_of(vec3 direction) {
     return vec2(direction) / max(-direction.z, BURIN_LEAST_FALL * length(direction) + 1.0e-12f);
 }
 
-// From derivatives and spread per uv; `frame` has the local frame as its columns, `to_local` is its inverse.
-BurinRound burin_bend_at(mat3 frame, mat3 to_local, vec3 duu, vec3 duv, vec3 dvv, vec3 spread) {
+// From derivatives per uv; `frame` has the local frame as its columns, `to_local` is its inverse.
+BurinRound burin_bend_at(mat3 frame, mat3 to_local, vec3 duu, vec3 duv, vec3 dvv) {
     vec2 size = burin_map.size;
     vec3 square = vec3(size.x * size.x, size.x * size.y, size.y * size.y);
     vec3 metric = vec3(dot(frame[0], frame[0]), dot(frame[0], frame[1]), dot(frame[1], frame[1]));
     return burin_bend_from(to_local * duu * (1.0f / square.x), to_local * duv * (1.0f / square.y),
-                      to_local * dvv * (1.0f / square.z), metric, spread * square);
+                           to_local * dvv * (1.0f / square.z), metric);
 }
 
 // Second derivative of the surface in a direction.
@@ -203,25 +186,15 @@ BurinSight burin_eye_sight(BurinRound bend, vec2 start, BurinRay ray, vec3 direc
     sight.along = direction;
     sight.first = 0.0f;
     sight.chord = 0.0f;
-    sight.fall = 1.0f;
     sight.outward = false;
     sight.shift = vec3(0.0f, 0.0f, 0.0f);
     sight.near = ray.origin - start;
     sight.chords = 1;
     if (!bend.bent) return sight;
-    // drop(s) = fall s + second s^2 / 2 from the round surface on: it reaches the lowest point, or comes up before.
+    // drop(s) = fall s + second s^2 / 2: it reaches the lowest point, or comes up before.
     float fall = max(-direction.z, 1.0e-6f);
     float second = burin_second(bend, vec2(direction)).z;
-    float below = -bend.entry.z;
-    float turned = fall * fall - 2.0f * second * below;
-    sight.from = bend.entry + vec3(sight.near.x, sight.near.y, 0.0f);
-    // One that would pass the round surface by begins on the mesh.
-    if (turned > 1.0e-6f) {
-        turned = sqrt(turned);
-        sight.first = -2.0f * below / (fall + turned);
-        fall = turned;
-    }
-    sight.fall = max(fall, 1.0e-3f);
+    sight.from = vec3(sight.near.x, sight.near.y, 0.0f);
     float square = fall * fall + 2.0f * second * burin_map.depth;
     float stretch = square > 0.0f ? 2.0f * burin_map.depth / (fall + sqrt(square)) : -2.0f * fall / second;
     stretch = min(stretch, 1.0e3f * burin_map.depth);
@@ -243,12 +216,11 @@ BurinSight burin_light_sight(BurinRound bend, BurinRay ray, float until, BurinFo
     sight.outward = true;
     sight.first = 0.0f;
     sight.chord = 0.0f;
-    sight.fall = 1.0f;
     sight.shift = vec3(0.0f, 0.0f, 0.0f);
     sight.near = found.place - start;
     sight.chords = 1;
     if (!bend.bent) return sight;
-    sight.from = bend.entry + vec3(origin.x - start.x, origin.y - start.y, 0.0f) + direction * found.way;
+    sight.from = vec3(origin.x - start.x, origin.y - start.y, 0.0f) + direction * found.way;
     sight.along = light;
     vec2 d = found.place - start;
     BurinSpot spot = burin_spot(bend, d);
@@ -286,13 +258,8 @@ BurinFound burin_trace_sight(BurinRound bend, vec2 start, BurinSight sight) {
     vec3 here = vec3(0.0f, 0.0f, 0.0f);
     if (bend.bent) {
         here = burin_place(bend, sight.from + sight.along * s, sight.near) + sight.shift;
-        if (!sight.outward) {
-            // Exactly on the object surface, or ground that lies there would count as a wall.
-            float off = abs(sight.from.z);
-            s = s - clamp(here.z, -off, off) / sight.fall;
-            here = burin_place(bend, sight.from + sight.along * s, vec2(here));
-            here.z = 0.0f;
-        }
+        // Exactly on the object surface, or ground that lies there would count as a wall.
+        if (!sight.outward) here.z = 0.0f;
     }
     float length_here = sight.chord;
     for (int i = 0; i < BURIN_MAX_CHORDS; ++i) {
@@ -340,16 +307,13 @@ bool burin_straighten(BurinRound bend, vec3 direction, BURIN_INOUT(BurinRay) ray
     float fall = max(-direction.z, 1.0e-6f);
     float second = burin_second(bend, vec2(direction)).z;
     float deep = 0.5f * burin_map.depth;
-    float square = fall * fall + 2.0f * second * (deep + bend.entry.z);
+    float square = fall * fall + 2.0f * second * deep;
     if (square < 0.25f * fall * fall) return false;
-    float way = 2.0f * (deep + bend.entry.z) / (fall + sqrt(square));
-    vec2 start = ray.origin;
-    vec3 upper = burin_place(bend, bend.entry, vec2(0.0f, 0.0f));
-    vec3 lower = burin_place(bend, bend.entry + direction * way, vec2(upper));
-    if (lower.z - upper.z < 0.25f * deep) return false;
-    ray.slope = (vec2(lower) - vec2(upper)) * (1.0f / (lower.z - upper.z));
+    float way = 2.0f * deep / (fall + sqrt(square));
+    vec3 lower = burin_place(bend, direction * way, vec2(0.0f, 0.0f));
+    if (lower.z < 0.25f * deep) return false;
+    ray.slope = vec2(lower) * (1.0f / lower.z);
     if (length(ray.slope) > BURIN_MOST_STRAIGHT) return false;
-    ray.origin = start + vec2(upper) - ray.slope * upper.z;
     drop = lower.z;
     return true;
 }

@@ -143,7 +143,7 @@ SurfaceHit Decoder::trace_surface(const SurfacePlace& place, const std::array<do
     const glm::mat3 frame(to_vec3(place.du) / size.x, to_vec3(place.dv) / size.y, to_vec3(place.normal));
     const glm::mat3 to_local = glm::inverse(frame);
     const auto bend =
-        core.burin_bend_at(frame, to_local, to_vec3(place.duu), to_vec3(place.duv), to_vec3(place.dvv), to_vec3(place.spread));
+        core.burin_bend_at(frame, to_local, to_vec3(place.duu), to_vec3(place.duv), to_vec3(place.dvv));
     const glm::vec3 local = to_local * to_vec3(direction);
     glsl::Core::BurinRay ray;
     ray.origin = glm::vec2(float(place.uv.x), float(place.uv.y)) * size;

@@ -47,8 +47,6 @@ struct SurfacePlace {
     Vec2 uv;
     std::array<double, 3> normal{0, 0, 1};  // unit length
     std::array<double, 3> du{}, dv{}, duu{}, duv{}, dvv{};
-    // Of u u, u v, v v over the triangle: their means over its corners, with the weights of the point, less the point's own.
-    std::array<double, 3> spread{};
     // 2 * number of its chart, + 1 where the triangle is wound clockwise in uv (burin/charts.hpp).
     std::uint32_t chart = 0;
 };

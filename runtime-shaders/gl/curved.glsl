@@ -2,7 +2,6 @@
 in vec3 world_duu;  // metres of the world per uv squared; zero: unknown, or flat
 in vec3 world_duv;
 in vec3 world_dvv;
-in vec3 uv_products;  // u u, u v, v v of the corners
 
 #ifdef BURIN_CORRECT_DEPTH
 uniform mat4 world_to_clip;
@@ -32,8 +31,7 @@ bool frames_hold(vec3 n, vec3 du, vec3 dv, vec3 along_u, vec3 along_v) {
 }
 
 // `own`: the frame comes from the vertices' own directions, with which these go.
-BurinRound pattern_bend(vec2 uv, mat3 frame, mat3 to_local, bool own) {
-    vec3 spread = uv_products - vec3(uv.x * uv.x, uv.x * uv.y, uv.y * uv.y);
+BurinRound pattern_bend(mat3 frame, mat3 to_local, bool own) {
     float known = own ? 1.0 : 0.0;
-    return burin_bend_at(frame, to_local, known * world_duu, known * world_duv, known * world_dvv, spread);
+    return burin_bend_at(frame, to_local, known * world_duu, known * world_duv, known * world_dvv);
 }

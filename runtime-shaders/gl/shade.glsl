@@ -9,6 +9,7 @@ vec3 to_eye;
 mat3 to_pattern;     // world directions to pattern space
 vec2 rest_slopes;    // of the residual
 bool light_above;    // the object surface faces the light; else nothing of it is lit
+bool along_look;     // what is shaded lies on the straight ray of look_origin and look_slope, at its own drop
 
 // Lambert and GGX with Smith's shadowing, for one light; colours linear.
 vec3 shade_lamp(vec3 n, Paint paint) {
@@ -60,6 +61,10 @@ vec3 shade_surround(vec3 n, Paint paint) {
 }
 
 vec3 painted_color(BurinFacet facet, Paint paint) {
+    if (along_look) {
+        bend_moved = look_origin + look_slope * facet.drop - bend_start;
+        bend_drop = facet.drop;
+    }
     vec3 leaning = burin_add_slopes(facet.normal, rest_slopes);
     vec3 n = normalize(transpose(to_pattern) * burin_bend_normal(bend, bend_moved, bend_drop, leaning));
     vec3 color = paint.glow;

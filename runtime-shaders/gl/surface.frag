@@ -63,6 +63,7 @@ BurinFacet facet_of(BurinRay ray, BurinFound found) {
         rest_slopes = vec2(0.0);
     }
     stand_at(found.place - bend_start, found.drop);
+    along_look = false;
     return facet;
 }
 
@@ -145,6 +146,7 @@ Areas areas_of(Part part, bool whole, bool gather) {
     look_slope = part.ray.slope;
     look_x = part.along_x;
     look_y = part.along_y;
+    along_look = true;
     rest_slopes = fetch_residual(place, uv_along_x, uv_along_y);
     ground_paint = paint_of(0u, look_at(vec3(0.0, 0.0, 1.0), level));
     vec3 ground = ground_color(level, 1.0);
@@ -289,7 +291,7 @@ void main() {
         return;
     }
     to_pattern = inverse(frame);
-    bend = pattern_bend(pattern_uv, frame, to_pattern, own);
+    bend = pattern_bend(frame, to_pattern, own);
     bend_start = pattern_uv * burin_map.size;
     chart = chart_key();
     eye_direction = to_pattern * -to_eye;

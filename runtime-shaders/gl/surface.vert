@@ -18,7 +18,6 @@ out vec3 world_along_v;
 out vec3 world_duu;
 out vec3 world_duv;
 out vec3 world_dvv;
-out vec3 uv_products;
 out vec4 texture_uvs;
 flat out float chart_number;
 
@@ -33,6 +32,5 @@ void main() {
     world_duv = duv;
     world_dvv = dvv;
     chart_number = chart;
-    uv_products = vec3(uv.x * uv.x, uv.x * uv.y, uv.y * uv.y);
     gl_Position = world_to_clip * vec4(position, 1.0);
 }

@@ -129,6 +129,21 @@ Path mapped(Path path, const std::function<Vec2(Vec2)>& to) {
     return path;
 }
 
+Pattern enlarged(Pattern pattern, double factor) {
+    pattern.size = pattern.size * factor;
+    pattern.depth *= factor;
+    pattern.base_offset *= factor;
+    pattern.outer_level *= factor;
+    for (Profile& profile : pattern.profiles)
+        for (ProfilePoint& point : profile.points) point = {point.b * factor, point.h * factor};
+    for (Path& path : pattern.paths) {
+        path = mapped(std::move(path), [factor](Vec2 q) { return q * factor; });
+        path.level *= factor;
+    }
+    for (Perturbation& perturbation : pattern.perturbations) perturbation.wavelength *= factor;
+    return pattern;
+}
+
 double path_length(const Path& path) {
     double sum = 0.0;
     for (const Element& e : path.elements) sum += length_of(e);

@@ -46,6 +46,8 @@ Stroke smooth(const std::function<Vec2(double)>& at, int pieces);
 
 // Every point moved by `to` (isometries and scalings; curves stay quadratics under them).
 Path mapped(Path path, const std::function<Vec2(Vec2)>& to);
+// Every length of the pattern times `factor`, > 0: the same relief, larger.
+Pattern enlarged(Pattern pattern, double factor);
 
 // Width and height scales by arc length, from 0 at the start to 1 at the end. Elements are cut into pieces until the
 // straight run of the scales between their ends stays within `tolerance` of the functions.

@@ -10,7 +10,8 @@ import inputs
 
 def figures(verdicts, burin, asset, path, more):
     outcome = harness.run(burin, ["check", asset, "--against", path, "--format", "json"] + more)
-    if outcome.status == 5:
+    # A driver that is here and refuses a shader is a failure.
+    if outcome.status == 5 and "shader" not in outcome.err:
         harness.skip("no OpenGL context here")
     return json.loads(outcome.stdout) if verdicts.expect(outcome.status == 0, "checks", outcome) else None
 

@@ -1,6 +1,7 @@
 // Areas against rays: pictures of the same scenes by both. Where areas leave something out, or draw what is hidden, whole patches of
 // pixels are off, which a mean over a picture does not tell; so they are counted.
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -8,6 +9,8 @@
 #include <gl/render.hpp>
 
 #include "../../samples/scenes/scenes.hpp"
+#include "../../samples/write_scene.hpp"
+#include "../judge/context.hpp"
 #include "../judge/judge.hpp"
 
 namespace burin::testing {
@@ -48,25 +51,62 @@ Asset asset_of(const std::string& name) {
     return asset;
 }
 
+RenderOptions options_from(const Camera& camera) {
+    RenderOptions options;
+    options.backend = backend();
+    options.width = 160;
+    options.height = 120;
+    options.camera = camera;
+    return options;
+}
+
+RenderOptions by_rays(RenderOptions options) {
+    options.antialiasing = Antialiasing::points;
+    options.samples = 16;
+    return options;
+}
+
+// Pixels that differ by more than `most`.
+int count_off(const RgbaImage& a, const RgbaImage& b, int most) {
+    int off = 0;
+    for (std::size_t i = 0; i < a.texels.size(); i += 4) off += std::abs(int(a.texels[i]) - int(b.texels[i])) > most;
+    return off;
+}
+
 TEST(Areas, ShowWhatRaysMeet) {
-    const char* wanted = std::getenv("BURIN_BACKEND");
     for (const Look& look : kLooks) {
         const Asset asset = asset_of(look.scene);
-        RenderOptions options;
-        options.backend = wanted != nullptr && std::string(wanted) == "egl" ? Backend::egl : Backend::osmesa;
-        options.width = 160;
-        options.height = 120;
-        options.camera = {.azimuth = 37.0, .elevation = look.elevation, .zoom = look.zoom, .center = look.center};
+        const RenderOptions options = options_from({.azimuth = 37.0, .elevation = look.elevation, .zoom = look.zoom, .center = look.center});
         const auto areas = render_asset(asset, options);
-        if (!areas && areas.error().code == ErrorCode::unavailable) GTEST_SKIP() << "SKIPPED: " << areas.error().message;
-        options.antialiasing = Antialiasing::points;
-        options.samples = 16;
-        const auto rays = render_asset(asset, options);
-        ASSERT_TRUE(areas.ok() && rays.ok());
-        int off = 0;
-        for (std::size_t i = 0; i < rays->texels.size(); i += 4) off += std::abs(int(areas->texels[i]) - int(rays->texels[i])) > 40;
+        SKIP_WITHOUT_CONTEXT(areas);
+        const auto rays = render_asset(asset, by_rays(options));
+        ASSERT_TRUE(rays.ok());
+        const int off = count_off(*areas, *rays, 40);
         RecordProperty(std::string(look.scene) + "_" + std::to_string(int(look.elevation)), off);
         EXPECT_LE(off, 8) << look.scene << " from " << look.elevation << " degrees: pixels of 19200";
+    }
+}
+
+// A shield with long thin triangles over which the normal turns fast: what is seen lies aside of where the ray passes the mesh, by
+// more the deeper it is, and is shaded with the normal of its own place.
+TEST(Areas, AreShadedAsRaysAreOnArmour) {
+    const char* const path = BURIN_SHARED_DATA "/models/oga_knight_armor.gltf";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "SKIPPED: " << path << " is not there";
+    auto model = read_model(path);
+    ASSERT_TRUE(model.ok());
+    for (const scenes::SceneEntry& entry : scenes::scene_table()) {
+        if (entry.name != std::string("engraved_armour")) continue;
+        const auto file = scenes::write_scene_on(entry.make(), *model);
+        ASSERT_TRUE(file.ok()) << file.error().message;
+        const auto asset = read_asset(file->bytes);
+        ASSERT_TRUE(asset.ok());
+        RenderOptions options = options_from({.azimuth = -25.0, .elevation = 12.0, .zoom = 14.0, .center = Vec2{0.098, 0.325}});
+        options.light = {.azimuth = -70.0, .elevation = 40.0};
+        const auto areas = render_asset(*asset, options);
+        SKIP_WITHOUT_CONTEXT(areas);
+        const auto rays = render_asset(*asset, by_rays(options));
+        ASSERT_TRUE(rays.ok());
+        EXPECT_LE(count_off(*areas, *rays, 3), 220) << "pixels of 19200";
     }
 }
 

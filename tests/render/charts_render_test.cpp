@@ -9,16 +9,12 @@
 #include <burin/image_io.hpp>
 #include <gl/render.hpp>
 
+#include "../judge/context.hpp"
 #include "../shader/patterns.hpp"
 #include "../shader/rays.hpp"
 
 namespace burin::testing {
 namespace {
-
-Backend backend() {
-    const char* wanted = std::getenv("BURIN_BACKEND");
-    return wanted != nullptr && std::string(wanted) == "egl" ? Backend::egl : Backend::osmesa;
-}
 
 constexpr double kCut = 0.53;    // of the plane's width
 constexpr double kMargin = 0.014;  // by which both halves are drawn beyond the cut, where their lines end bluntly
@@ -136,7 +132,7 @@ TEST(ChartsRender, ACutLeavesNoTrace) {
             options.rays = 16;
             options.backend = backend();
             const auto one = render_asset(plane_with(whole, Cut::none), options);
-            if (!one && one.error().code == ErrorCode::unavailable) GTEST_SKIP() << "SKIPPED: " << one.error().message;
+            SKIP_WITHOUT_CONTEXT(one);
             ASSERT_TRUE(one.ok()) << one.error().message;
             const auto two = render_asset(plane_with(halves, Cut::with_borders), options),
                        lost = render_asset(plane_with(halves, Cut::without_borders), options);

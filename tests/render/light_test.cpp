@@ -10,6 +10,7 @@
 #include <cpp/environment.hpp>
 #include <gl/render.hpp>
 
+#include "../judge/context.hpp"
 #include "../shader/patterns.hpp"
 #include "../shader/rays.hpp"
 
@@ -18,15 +19,6 @@ namespace {
 
 using Vec3 = std::array<double, 3>;
 constexpr double kPi = std::numbers::pi;
-
-Backend backend() {
-    const char* wanted = std::getenv("BURIN_BACKEND");
-    return wanted != nullptr && std::string(wanted) == "egl" ? Backend::egl : Backend::osmesa;
-}
-
-#define SKIP_WITHOUT_CONTEXT(result)                                  \
-    if (!(result) && (result).error().code == ErrorCode::unavailable) \
-    GTEST_SKIP() << "SKIPPED: " << (result).error().message
 
 double dot3(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vec3 unit3(const Vec3& a) {

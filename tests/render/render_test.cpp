@@ -11,16 +11,12 @@
 #include <cpp/decode.hpp>
 #include <gl/render.hpp>
 
+#include "../judge/context.hpp"
 #include "../shader/patterns.hpp"
 #include "../shader/rays.hpp"
 
 namespace burin::testing {
 namespace {
-
-Backend backend() {
-    const char* wanted = std::getenv("BURIN_BACKEND");
-    return wanted != nullptr && std::string(wanted) == "egl" ? Backend::egl : Backend::osmesa;
-}
 
 // A plane as make_plane lays it out, with the pattern on it.
 Asset plane_with(const PreparedPattern& p, bool patterned = true) {
@@ -42,10 +38,6 @@ Asset plane_with(const PreparedPattern& p, bool patterned = true) {
     asset.primitives.push_back(plane);
     return asset;
 }
-
-#define SKIP_WITHOUT_CONTEXT(result)                                  \
-    if (!(result) && (result).error().code == ErrorCode::unavailable) \
-    GTEST_SKIP() << "SKIPPED: " << (result).error().message
 
 TEST(RenderTop, EqualsDecoder) {
     for (const Pattern& pattern : {corner_pattern(JoinKind::round), plateau_pattern(), clamped_pattern()}) {

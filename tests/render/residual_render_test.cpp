@@ -8,6 +8,7 @@
 #include <burin/residual.hpp>
 #include <gl/render.hpp>
 
+#include "../judge/context.hpp"
 #include "../shader/patterns.hpp"
 #include "../shader/rays.hpp"
 
@@ -15,11 +16,6 @@ namespace burin::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-
-Backend backend() {
-    const char* wanted = std::getenv("BURIN_BACKEND");
-    return wanted != nullptr && std::string(wanted) == "egl" ? Backend::egl : Backend::osmesa;
-}
 
 // A hill of 16 mm in the lower right of the middle, and how it rises along x and y.
 constexpr double kHillHeight = 0.016, kHillWidth = 0.05;
@@ -50,10 +46,6 @@ double degrees_between(const float* a, const double* b) {
     const double cosine = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / std::sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
     return std::acos(std::min(1.0, cosine)) * 180 / kPi;
 }
-
-#define SKIP_WITHOUT_CONTEXT(result)                                  \
-    if (!(result) && (result).error().code == ErrorCode::unavailable) \
-    GTEST_SKIP() << "SKIPPED: " << (result).error().message
 
 TEST(RenderResidual, AddsTheHillToTheFacetThatIsMet) {
     const PreparedPattern p = prepare(crossing_pattern());

@@ -6,16 +6,13 @@
 
 #include <gl/render.hpp>
 
+#include "../judge/context.hpp"
 #include "../shader/patterns.hpp"
 #include "../shader/rays.hpp"
 #include "../shader/surfaces.hpp"
 
 namespace burin::testing {
 namespace {
-
-#define SKIP_WITHOUT_CONTEXT(result)                                  \
-    if (!(result) && (result).error().code == ErrorCode::unavailable) \
-    GTEST_SKIP() << "SKIPPED: " << (result).error().message
 
 MaterialInfo grey(float value) {
     MaterialInfo material;

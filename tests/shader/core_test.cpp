@@ -6,6 +6,7 @@
 
 #include <cpp/decode.hpp>
 
+#include "../judge/context.hpp"
 #include "../property/perturbed.hpp"
 #include "../property/random_pattern.hpp"
 #include "patterns.hpp"
@@ -35,17 +36,10 @@ void expect_agreement(const Agreement& agreement, const std::string& name) {
     }
 }
 
-// Hits of the shader, or nothing where the machine has no context; then the test is skipped.
-std::vector<ShadedHit> shade(const PreparedPattern& pattern, const std::vector<AimedRay>& rays) {
+Result<std::vector<ShadedHit>> shade(const PreparedPattern& pattern, const std::vector<AimedRay>& rays) {
     std::vector<PatternRay> bare;
     for (const AimedRay& ray : rays) bare.push_back(ray.ray);
-    const char* backend = std::getenv("BURIN_BACKEND");
-    const bool egl = backend != nullptr && std::string(backend) == "egl";
-    auto hits = shade_rays(pattern.textures, pattern.detail, bare, egl ? Backend::egl : Backend::osmesa);
-    if (hits) return *hits;
-    std::cout << "SKIPPED: " << hits.error().message << "\n";
-    EXPECT_EQ(hits.error().code, ErrorCode::unavailable) << hits.error().message;
-    return {};
+    return shade_rays(pattern.textures, pattern.detail, bare, backend());
 }
 
 TEST(CorePatterns, WheelHasSixteenFeaturesInACell) {
@@ -69,9 +63,9 @@ TEST_P(CoreTest, ShaderAgreesWithTruth) {
     const PreparedPattern pattern = prepare(GetParam().pattern);
     ASSERT_FALSE(pattern.textures.data.empty());
     const std::vector<AimedRay> rays = aim_rays(pattern, ray_count(), kSeed);
-    const std::vector<ShadedHit> hits = shade(pattern, rays);
-    if (hits.empty()) GTEST_SKIP();
-    expect_agreement(judge(pattern, rays, hits), GetParam().name);
+    const auto hits = shade(pattern, rays);
+    SKIP_WITHOUT_CONTEXT(hits);
+    expect_agreement(judge(pattern, rays, *hits), GetParam().name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Authored, CoreTest, ::testing::ValuesIn(authored_patterns()),
@@ -86,8 +80,9 @@ TEST(DecoderTest, StepsThroughCellCentres) {
         ASSERT_EQ(pattern.textures.grid_width, 10) << named.name;
         const std::vector<AimedRay> rays = aim_rays(pattern, ray_count(), kSeed);
         expect_agreement(judge(pattern, rays, decode_rays(pattern, rays)), named.name);
-        const std::vector<ShadedHit> hits = shade(pattern, rays);
-        if (!hits.empty()) expect_agreement(judge(pattern, rays, hits), named.name + " as shader");
+        const auto hits = shade(pattern, rays);
+        SKIP_WITHOUT_CONTEXT(hits);
+        expect_agreement(judge(pattern, rays, *hits), named.name + " as shader");
     }
 }
 
@@ -119,9 +114,9 @@ TEST_P(RandomCoreTest, DecoderAndShaderAgreeWithTruth) {
     const std::vector<AimedRay> rays = aim_rays(pattern, ray_count(), seed);
     expect_agreement(judge(pattern, rays, decode_rays(pattern, rays)), "random " + std::to_string(seed));
     if (GetParam() % 3 != 0) return;
-    const std::vector<ShadedHit> hits = shade(pattern, rays);
-    if (!hits.empty())
-        expect_agreement(judge(pattern, rays, hits), "random " + std::to_string(seed) + " as shader");
+    const auto hits = shade(pattern, rays);
+    SKIP_WITHOUT_CONTEXT(hits);
+    expect_agreement(judge(pattern, rays, *hits), "random " + std::to_string(seed) + " as shader");
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoreTest, ::testing::Range(0, 14));

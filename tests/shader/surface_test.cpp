@@ -1,15 +1,16 @@
-// Rays over round and stretched surfaces: the decoder against Embree on the displaced surface.
+// Rays over round and stretched surfaces: the decoder against Embree on the displaced mesh, whose points are those of the mesh's
+// triangles moved along the interpolated normal.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <random>
 
-#include <embree3/rtcore.h>
 #include <gtest/gtest.h>
 
 #include <cpp/decode.hpp>
 
+#include "embree_scene.hpp"
 #include "patterns.hpp"
 #include "rays.hpp"
 #include "surfaces.hpp"
@@ -31,77 +32,10 @@ Pattern grooved(double rise) {
     return p;
 }
 
-struct EmbreeHit {
-    double distance;  // infinity: none
-    std::uint32_t triangle;
-    double u, v;
-};
-
-// One mesh in Embree.
-class Scene {
-  public:
-    Scene(const std::vector<float>& positions, const std::vector<std::uint32_t>& indices)
-        : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-        RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* vertices = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, positions.size() / 3);
-        std::copy(positions.begin(), positions.end(), static_cast<float*>(vertices));
-        void* corners = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, indices.size() / 3);
-        std::copy(indices.begin(), indices.end(), static_cast<std::uint32_t*>(corners));
-        rtcCommitGeometry(mesh);
-        rtcAttachGeometry(scene_, mesh);
-        rtcReleaseGeometry(mesh);
-        rtcCommitScene(scene_);
-    }
-    Scene(const Scene&) = delete;
-    ~Scene() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    EmbreeHit trace(const Vec3& origin, const Vec3& direction, double near) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRayHit ray{};
-        ray.ray.org_x = float(origin[0]), ray.ray.org_y = float(origin[1]), ray.ray.org_z = float(origin[2]);
-        ray.ray.dir_x = float(direction[0]), ray.ray.dir_y = float(direction[1]), ray.ray.dir_z = float(direction[2]);
-        ray.ray.tnear = float(near), ray.ray.tfar = HUGE_VALF, ray.ray.mask = ~0u;
-        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene_, &context, &ray);
-        const bool hit = ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-        return {hit ? double(ray.ray.tfar) : HUGE_VAL, ray.hit.primID, double(ray.hit.u), double(ray.hit.v)};
-    }
-
-  private:
-    RTCDevice device_;
-    RTCScene scene_;
-};
-
-// What a fragment shader has at a point of a triangle.
+// Without curvature: what a decoder that knows only the first derivatives would see.
 SurfacePlace interpolate(const BaseMesh& mesh, const EmbreeHit& hit, bool curved) {
-    SurfacePlace place;
-    place.normal = {0, 0, 0};
-    const double weights[3] = {1.0 - hit.u - hit.v, hit.u, hit.v};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t i = mesh.indices[3 * hit.triangle + k];
-        place.uv = place.uv + Vec2{double(mesh.uvs[2 * i]), double(mesh.uvs[2 * i + 1])} * weights[k];
-        const double u = double(mesh.uvs[2 * i]), v = double(mesh.uvs[2 * i + 1]);
-        place.spread = place.spread + Vec3{u * u, u * v, v * v} * weights[k];
-        const SurfaceFrame& f = mesh.frames[i];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            place.normal[axis] += weights[k] * double(mesh.normals[3 * i + axis]);
-            place.du[axis] += weights[k] * double(f.du[axis]);
-            place.dv[axis] += weights[k] * double(f.dv[axis]);
-            if (!curved) continue;
-            place.duu[axis] += weights[k] * double(f.duu[axis]);
-            place.duv[axis] += weights[k] * double(f.duv[axis]);
-            place.dvv[axis] += weights[k] * double(f.dvv[axis]);
-        }
-    }
-    const Vec2 uv = place.uv;
-    place.spread = place.spread - Vec3{uv.x * uv.x, uv.x * uv.y, uv.y * uv.y};
-    place.normal = normalized(place.normal);
-    place.du = place.du - place.normal * dot(place.du, place.normal);
-    place.dv = place.dv - place.normal * dot(place.dv, place.normal);
+    SurfacePlace place = place_on(mesh, hit.triangle, hit.u, hit.v);
+    if (!curved) place.duu = place.duv = place.dvv = {};
     return place;
 }
 
@@ -145,7 +79,7 @@ struct Setting {
     RoundSurface surface;
     BaseMesh mesh;
     PreparedPattern pattern;
-    std::unique_ptr<Scene> base, displaced;
+    std::unique_ptr<EmbreeScene> base, displaced;
 };
 
 Setting prepare_setting(const RoundSurface& surface, const Pattern& pattern) {
@@ -154,9 +88,9 @@ Setting prepare_setting(const RoundSurface& surface, const Pattern& pattern) {
     const auto drop = [&](Vec2 uv) {
         return s.pattern.detail.base_offset - truth.surface_at({uv.x * kTile, uv.y * kTile}).height;
     };
-    const Triangles fine = displace(surface, drop, 5e-5, 4);
-    s.base = std::make_unique<Scene>(s.mesh.positions, s.mesh.indices);
-    s.displaced = std::make_unique<Scene>(fine.positions, fine.indices);
+    const Triangles fine = displace(faceted(surface), drop, 5e-5, 4);
+    s.base = std::make_unique<EmbreeScene>(s.mesh.positions, s.mesh.indices);
+    s.displaced = std::make_unique<EmbreeScene>(fine.positions, fine.indices);
     return s;
 }
 
@@ -209,7 +143,7 @@ std::string row(const std::string& name, const char* kind, double low, double hi
 class Surfaces : public ::testing::TestWithParam<int> {};
 
 TEST_P(Surfaces, HitDistanceAsOnTheDisplacedMesh) {
-    const RoundSurface surface = round_surfaces()[std::size_t(GetParam())];
+    const RoundSurface surface = round_surfaces(2.0)[std::size_t(GetParam())];
     for (const double rise : {0.0, kRise}) {
         const Setting setting = prepare_setting(surface, grooved(rise));
         ASSERT_FALSE(setting.mesh.frames.empty());

@@ -1,5 +1,6 @@
 #include "surfaces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace burin::testing {
@@ -163,6 +164,53 @@ BaseMesh mesh_of(const RoundSurface& surface) {
             mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     mesh.frames = compute_frames({mesh.positions, mesh.normals, mesh.uvs, mesh.indices});
     return mesh;
+}
+
+SurfacePlace place_on(const BaseMesh& mesh, std::size_t triangle, double b, double c, const std::vector<std::uint32_t>* charts) {
+    SurfacePlace place;
+    place.normal = {0, 0, 0};
+    const double weights[3] = {1.0 - b - c, b, c};
+    Vec2 uv[3];
+    Vec3 p[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t i = mesh.indices[3 * triangle + k];
+        const auto add = [&](Vec3& sum, const float* v) { sum = sum + Vec3{double(v[0]), double(v[1]), double(v[2])} * weights[k]; };
+        uv[k] = {double(mesh.uvs[2 * i]), double(mesh.uvs[2 * i + 1])};
+        p[k] = {double(mesh.positions[3 * i]), double(mesh.positions[3 * i + 1]), double(mesh.positions[3 * i + 2])};
+        place.uv = place.uv + uv[k] * weights[k];
+        add(place.normal, &mesh.normals[3 * i]);
+        if (mesh.frames.empty()) continue;
+        const SurfaceFrame& f = mesh.frames[i];
+        add(place.du, f.du.data()), add(place.dv, f.dv.data());
+        add(place.duu, f.duu.data()), add(place.duv, f.duv.data()), add(place.dvv, f.dvv.data());
+    }
+    place.normal = normalized(place.normal);
+    const Vec2 u = uv[1] - uv[0], v = uv[2] - uv[0];
+    const double area = u.x * v.y - u.y * v.x;
+    if (mesh.frames.empty()) {
+        place.du = ((p[1] - p[0]) * v.y - (p[2] - p[0]) * u.y) * (1 / area);
+        place.dv = ((p[2] - p[0]) * u.x - (p[1] - p[0]) * v.x) * (1 / area);
+    }
+    place.du = place.du - place.normal * dot(place.du, place.normal);
+    place.dv = place.dv - place.normal * dot(place.dv, place.normal);
+    if (charts != nullptr) place.chart = 2 * (*charts)[mesh.indices[3 * triangle]] + (area < 0 ? 1 : 0);
+    return place;
+}
+
+RoundSurface faceted(const RoundSurface& surface) {
+    RoundSurface flat = surface;
+    flat.at = [surface](Vec2 uv) {
+        const double x = uv.x / surface.span.x * surface.columns, y = uv.y / surface.span.y * surface.rows;
+        const double i = std::clamp(std::floor(x), 0.0, surface.columns - 1.0), j = std::clamp(std::floor(y), 0.0, surface.rows - 1.0);
+        const auto corner = [&](double a, double b) { return surface.at({surface.span.x * (i + a) / surface.columns, surface.span.y * (j + b) / surface.rows}); };
+        // The diagonal leads from the first corner to the last: as mesh_of cuts.
+        const double u = x - i, v = y - j;
+        const SurfacePosition first = corner(0, 0), last = corner(1, 1), third = u > v ? corner(1, 0) : corner(0, 1);
+        const double b = std::min(u, v), c = std::abs(u - v);
+        return SurfacePosition{first.position * (1 - b - c) + last.position * b + third.position * c,
+                               normalized(first.normal * (1 - b - c) + last.normal * b + third.normal * c)};
+    };
+    return flat;
 }
 
 Triangles displace(const RoundSurface& surface, const std::function<double(Vec2)>& drop, double tolerance, int levels) {

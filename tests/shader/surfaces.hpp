@@ -11,6 +11,7 @@
 
 #include <burin/frames.hpp>
 #include <burin/geometry.hpp>
+#include <cpp/decode.hpp>
 
 namespace burin::testing {
 
@@ -45,6 +46,13 @@ struct BaseMesh {
     std::vector<SurfaceFrame> frames;  // as compute_frames gives them
 };
 BaseMesh mesh_of(const RoundSurface& surface);
+
+// What a fragment shader has at a point of a triangle: b and c weigh its second and third corner. Without frames the triangle
+// itself says how the surface is stretched. The chart is that of `charts`, one per vertex, where given.
+SurfacePlace place_on(const BaseMesh& mesh, std::size_t triangle, double b, double c, const std::vector<std::uint32_t>* charts = nullptr);
+
+// The surface of mesh_of's triangles, with the normals interpolated between their corners.
+RoundSurface faceted(const RoundSurface& surface);
 
 struct Triangles {
     std::vector<float> positions;

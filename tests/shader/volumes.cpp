@@ -81,7 +81,7 @@ Body sphere(double unit) {
     Body body{"sphere of six charts", {}, {}, false};
     constexpr double kRadius = 0.6;
     for (std::size_t i = 0; i < 6; ++i)
-        body.patches.push_back({32, 32, [side = box_sides()[i]](Vec2 st) {
+        body.patches.push_back({96, 96, [side = box_sides()[i]](Vec2 st) {
                                     const double x = std::tan((st.x - 0.5) * kPi / 2), y = std::tan((st.y - 0.5) * kPi / 2);
                                     const Vec3 n = normalized(side.x * x + side.y * y + side.normal);
                                     return SurfacePosition{n * kRadius, n};
@@ -101,10 +101,10 @@ Body drum(double unit) {
     Body body{"drum", {}, {}, true};
     constexpr double kRadius = 0.5, kHalf = 0.3;
     const auto ring = [](double s) { return Vec3{std::sin(2 * kPi * s), 0, std::cos(2 * kPi * s)}; };
-    body.patches.push_back({128, 8, [=](Vec2 st) { return SurfacePosition{ring(st.x) * kRadius + Vec3{0, kHalf - 2 * kHalf * st.y, 0}, ring(st.x)}; },
+    body.patches.push_back({512, 8, [=](Vec2 st) { return SurfacePosition{ring(st.x) * kRadius + Vec3{0, kHalf - 2 * kHalf * st.y, 0}, ring(st.x)}; },
                             laid(0, false, {}, {2 * kPi * kRadius / unit, 2 * kHalf / unit})});
     for (const double up : {1.0, -1.0})
-        body.patches.push_back({128, 4, [=](Vec2 st) { return SurfacePosition{ring(st.x * up) * (kRadius * st.y) + Vec3{0, kHalf * up, 0}, {0, up, 0}}; },
+        body.patches.push_back({512, 4, [=](Vec2 st) { return SurfacePosition{ring(st.x * up) * (kRadius * st.y) + Vec3{0, kHalf * up, 0}, {0, up, 0}}; },
                                 [=](Vec2 st) {
                                     const Vec3 p = ring(st.x * up) * (kRadius * st.y / unit);
                                     return laid(23, up > 0, {0.3 * up, 9.0 * up}, {1, 1})({p[0], p[2]});
@@ -118,10 +118,26 @@ Body drum(double unit) {
     return body;
 }
 
+// One chart whose uv closes by 11.3 tiles around the ring and 4.5 around the tube.
+Body ring(double unit) {
+    Body body{"torus", {}, {}, false};
+    constexpr double kRing = 0.45, kTube = 0.18;
+    body.patches.push_back({512, 192, [](Vec2 st) {
+                                const double a = 2 * kPi * st.x, b = -2 * kPi * st.y;
+                                const Vec3 out{std::sin(a), 0, std::cos(a)}, n = out * std::cos(b) + Vec3{0, std::sin(b), 0};
+                                return SurfacePosition{out * kRing + n * kTube, n};
+                            }, laid(0, false, {}, {2 * kPi * kRing / unit, 2 * kPi * kTube / unit})});
+    body.locate = [](const Vec3& p) {
+        const double a = std::atan2(p[0], p[2]) / (2 * kPi), over = std::hypot(p[0], p[2]) - kRing, b = -std::atan2(p[1], over) / (2 * kPi);
+        return BodyPlace{0, {a - std::floor(a), b - std::floor(b)}, kTube - std::hypot(over, p[1])};
+    };
+    return body;
+}
+
 }  // namespace
 
 std::vector<Body> cut_bodies(double unit) {
-    return {fold("sheet cut in two", 0, unit), fold("roof of 50 degrees", 50, unit), fold("valley of 50 degrees", -50, unit), cube(unit), drum(unit), sphere(unit)};
+    return {fold("sheet cut in two", 0, unit), fold("roof of 50 degrees", 50, unit), fold("valley of 50 degrees", -50, unit), cube(unit), drum(unit), sphere(unit), ring(unit)};
 }
 
 CutMesh mesh_of(const Body& body, const ChartOptions& options) {

@@ -33,8 +33,8 @@ struct Body {
     bool creased;                                  // its faces meet in edges
 };
 
-// Two sheets side by side, a roof and a valley of two, a cube, a cylinder with lids, a sphere of six charts; about a metre large, each chart
-// turned, mirrored or moved in uv; a uv unit is `unit` metres about everywhere.
+// Two sheets side by side, a roof and a valley of two, a cube, a cylinder with lids, a sphere of six charts, a torus; about a metre large, each chart
+// turned, mirrored or moved in uv; a uv unit is `unit` metres about everywhere. Round ones are cut so finely that their facets do not count.
 std::vector<Body> cut_bodies(double unit);
 
 struct CutMesh {
