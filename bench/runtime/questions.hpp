@@ -31,6 +31,7 @@ void ask_pictures(const Settings& settings);
 void ask_memory(const Settings& settings);
 void ask_flicker(const Settings& settings);
 void ask_energy(const Settings& settings);
+void ask_work(const Settings& settings);
 void ask_features(const Settings& settings);
 void ask_grid(const Settings& settings);
 

@@ -1,7 +1,5 @@
-// Time and work of a picture.
+// Time of a picture.
 #pragma once
-
-#include <cpp/decode.hpp>
 
 #include "subject.hpp"
 
@@ -21,12 +19,5 @@ class PassTimer {
     RenderOptions options_;
     double one_ = 1e9, four_ = 1e9;
 };
-
-// Mean work of a pixel whose middle sees the plane, view ray and shadow ray together, by the decoder in C++.
-struct PixelWork {
-    double cells = 0.0, elements = 0.0, styles = 0.0, profiles = 0.0, lists = 0.0;
-    double fetches() const { return cells + elements + styles + profiles + lists; }
-};
-PixelWork work_of(const Subject& subject, const PlaneView& view);
 
 }  // namespace burin::bench

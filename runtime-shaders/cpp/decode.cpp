@@ -21,17 +21,14 @@ class Core {
     BurinCharts burin_charts;
     const PackedTextures* textures = nullptr;
     const std::vector<std::uint32_t>* charts = nullptr;
-    DecodeCounts* counts = nullptr;
 
     uvec2 fetch_cell(ivec2 index) const {
-        if (counts != nullptr) ++counts->cells;
         const std::size_t k =
             2 * (std::size_t(index.y) * std::size_t(textures->grid_width) + std::size_t(index.x));
         return k + 2 <= textures->grid.size() ? uvec2(textures->grid[k], textures->grid[k + 1]) : uvec2(0);
     }
 
     uvec4 fetch_data(int index) const {
-        if (counts != nullptr) ++section_of(index);
         const std::size_t k = 4 * std::size_t(index);
         if (index < 0 || k + 4 > textures->data.size()) return uvec4(0);
         const std::uint32_t* w = &textures->data[k];
@@ -43,13 +40,6 @@ class Core {
         if (charts == nullptr || index < 0 || k + 4 > charts->size()) return uvec4(0);
         const std::uint32_t* w = &(*charts)[k];
         return uvec4(w[0], w[1], w[2], w[3]);
-    }
-
-    std::uint64_t& section_of(int index) const {
-        if (index < burin_map.first_style) return counts->elements;
-        if (index < burin_map.first_profile) return counts->styles;
-        if (index < burin_map.first_material) return counts->profiles;
-        return index < burin_map.first_list ? counts->materials : counts->lists;
     }
 
 #include "core/fetch.glsl"
@@ -128,9 +118,8 @@ glm::vec3 to_vec3(const std::array<double, 3>& v) { return {float(v[0]), float(v
 Decoder::Decoder(const PackedTextures& textures, const PathDetail& detail, const std::vector<std::uint32_t>* charts)
     : textures_(textures), detail_(detail), charts_(charts), drop_range_(drop_range(textures, detail)) {}
 
-DecodedHit Decoder::trace(Vec2 origin, Vec2 slope, DecodeCounts* counts) const {
+DecodedHit Decoder::trace(Vec2 origin, Vec2 slope) const {
     glsl::Core core = glsl::make_core(textures_, detail_, drop_range_);
-    core.counts = counts;
     glsl::Core::BurinRay ray;
     ray.origin = glm::vec2(float(origin.x), float(origin.y));
     ray.slope = glm::vec2(float(slope.x), float(slope.y));

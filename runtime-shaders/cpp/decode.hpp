@@ -35,12 +35,6 @@ struct DecodedHit {
     std::uint32_t material = 0;
 };
 
-// What a ray costs: texels fetched, by the section they lie in. Cells are the turns of the outer loop, elements those of the
-// inner one (an element may be fetched again where a stretch is asked twice).
-struct DecodeCounts {
-    std::uint64_t cells = 0, elements = 0, styles = 0, profiles = 0, materials = 0, lists = 0;
-};
-
 // Where a ray passes the object surface, as a fragment shader gets it from the vertices: derivatives of the position by u
 // and v in space (burin/frames.hpp). Second derivatives of 0: flat.
 struct SurfacePlace {
@@ -67,8 +61,7 @@ class Decoder {
 
     // The ray that passes the object surface at `origin` and goes `slope` metres over the plane per metre of
     // drop. Cost: cells passed times elements listed, some microseconds.
-    // `counts`, where given, grows by what the ray fetches.
-    DecodedHit trace(Vec2 origin, Vec2 slope, DecodeCounts* counts = nullptr) const;
+    DecodedHit trace(Vec2 origin, Vec2 slope) const;
 
     // The ray that passes the object surface at `place` with a direction of unit length that leads into it, followed over
     // the bent and stretched surface. Cost: as `trace`, once per chord of the curve that the ray is in pattern space.

@@ -14,10 +14,20 @@ uvec4 fetch_chart(int index) {
 }
 #endif
 
+#ifdef BURIN_COUNTED
+vec4 burin_fetched = vec4(0.0);  // texels so far: cells, elements, lists, others of the data texture
+#endif
+
 uvec2 fetch_cell(ivec2 index) {
+#ifdef BURIN_COUNTED
+    burin_fetched.x += 1.0;
+#endif
     return texelFetch(burin_grid, index, 0).xy;
 }
 
 uvec4 fetch_data(int index) {
+#ifdef BURIN_COUNTED
+    burin_fetched += index < burin_map.first_style ? vec4(0, 1, 0, 0) : index < burin_map.first_list ? vec4(0, 0, 0, 1) : vec4(0, 0, 1, 0);
+#endif
     return texelFetch(burin_data, ivec2(index % burin_data_width, index / burin_data_width), 0);
 }

@@ -110,6 +110,7 @@ std::string fragment_text(const ProgramKind& kind) {
     const Stage stage = kind.stage;
     std::string text = kVersion;
     if (stage == Stage::surface_with_depth) text += "#define BURIN_CORRECT_DEPTH\n";
+    if (kind.counted) text += "#define BURIN_COUNTED\n";
     text += "#define PIXEL_FILTER " + std::to_string(kind.pixel_filter) + "\n";
     text += kinds_text(kind.pattern);
     text += kind.round ? "#define BURIN_ROUND 1\n" : "#define BURIN_ROUND 0\n";

@@ -27,6 +27,7 @@ struct ProgramKind {
     int textures = 0;          // surfaces only: which ones materials have, for BURIN_TEXTURES of gl/material.glsl
     bool round = false;        // surfaces only: some mesh bends
     bool charts = false;       // surfaces only: texture coordinates are cut
+    bool counted = false;      // surfaces only: instead of its colour a pixel says what it fetched
 };
 
 // Text of a fragment shader as the driver gets it: version, macros, layout.h, core, bindings, main.

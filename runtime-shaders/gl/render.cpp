@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gl/accumulator.hpp"
 #include "gl/look_textures.hpp"
 #include "gl/pixel_filter.h"
 #include "gl/program.hpp"
@@ -340,75 +341,6 @@ void draw_pass(const gl::Functions& gl, const gl::Program& program, const Asset&
 
 float to_linear(float s) { return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f); }
 
-std::uint8_t to_srgb(float linear) {
-    const float c = std::clamp(linear, 0.0f, 1.0f);
-    const float s = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
-    return std::uint8_t(s * 255.0f + 0.5f);
-}
-
-// Sums of samples, and what their spread says about where more are needed.
-class Accumulator {
-  public:
-    Accumulator(int width, int height)
-        : width_(width),
-          height_(height),
-          sum_(count() * 4, 0.0f),
-          low_(count(), 1e9f),
-          high_(count(), -1e9f),
-          samples_(count(), 0.0f),
-          wanted_(count(), 255) {}
-
-    // Pixels with wanted() == 0 are left alone.
-    void add(const std::vector<float>& pixels) {
-        for (std::size_t i = 0; i < count(); ++i) {
-            if (wanted_[i] == 0) continue;
-            for (std::size_t k = 0; k < 4; ++k) sum_[4 * i + k] += pixels[4 * i + k];
-            samples_[i] += 1.0f;
-            // A gamma of 2 stands in for the eye.
-            const float seen = std::sqrt(pixels[4 * i] + 2.0f * pixels[4 * i + 1] + pixels[4 * i + 2]) * 0.5f;
-            low_[i] = std::min(low_[i], seen);
-            high_[i] = std::max(high_[i], seen);
-        }
-    }
-
-    // Keeps the pixels whose samples, or whose neighbours' samples, differ by more than half a step of the
-    // picture's 8 bits: an edge that no sample of a pixel caught shows in the one beside it.
-    void keep_uneven() {
-        constexpr float kStep = 1.0f / 255.0f;
-        for (int y = 0; y < height_; ++y)
-            for (int x = 0; x < width_; ++x) {
-                float low = 1e9f, high = -1e9f;
-                for (int dy = std::max(y - 1, 0); dy <= std::min(y + 1, height_ - 1); ++dy)
-                    for (int dx = std::max(x - 1, 0); dx <= std::min(x + 1, width_ - 1); ++dx) {
-                        low = std::min(low, low_[at(dx, dy)]);
-                        high = std::max(high, high_[at(dx, dy)]);
-                    }
-                wanted_[at(x, y)] = high - low > kStep ? 255 : 0;
-            }
-    }
-    const std::vector<std::uint8_t>& wanted() const { return wanted_; }
-
-    RgbaImage image() const {
-        RgbaImage image{width_, height_, std::vector<std::uint8_t>(count() * 4, 255)};
-        for (int y = 0; y < height_; ++y)
-            for (int x = 0; x < width_; ++x) {
-                // The target's first row is the lowest one.
-                const std::size_t from = at(x, height_ - 1 - y);
-                for (std::size_t k = 0; k < 3; ++k)
-                    image.texels[4 * at(x, y) + k] = to_srgb(sum_[4 * from + k] / samples_[from]);
-            }
-        return image;
-    }
-
-  private:
-    std::size_t count() const { return std::size_t(width_) * std::size_t(height_); }
-    std::size_t at(int x, int y) const { return std::size_t(y) * std::size_t(width_) + std::size_t(x); }
-
-    int width_, height_;
-    std::vector<float> sum_, low_, high_, samples_;
-    std::vector<std::uint8_t> wanted_;  // 255 or 0 per pixel, lower row first
-};
-
 // A texture of one byte per pixel on unit 2, from which the shader reads where to draw.
 class WantedTexture {
   public:
@@ -441,8 +373,8 @@ int ray_side(const RenderOptions& options) { return 2 * int(std::ceil(std::sqrt(
 class Painter {
   public:
     // All must outlive it.
-    Painter(const gl::Functions& gl, const Asset& asset, const RenderOptions& options, const gl::FloatTarget& target)
-        : gl_(gl), asset_(asset), options_(options), target_(target),
+    Painter(const gl::Functions& gl, const Asset& asset, const RenderOptions& options, const gl::FloatTarget& target, bool counted = false)
+        : gl_(gl), asset_(asset), options_(options), target_(target), counted_(counted),
           scene_(load_scene(gl, asset, options)), view_(place_camera(asset, options)), wanted_(gl) {}
 
     // Linear colours of the pixels that are wanted, lower row first; `place` within the pixel.
@@ -463,7 +395,9 @@ class Painter {
     Result<const gl::Program*> program(int filter) {
         auto& built = programs_[std::size_t(filter)];
         if (built) return &*built;
-        auto program = gl::Program::build(gl_, program_for(asset_, options_, filter));
+        gl::ProgramKind kind = program_for(asset_, options_, filter);
+        kind.counted = counted_;
+        auto program = gl::Program::build(gl_, kind);
         if (!program) return program.error();
         built.emplace(std::move(*program));
         built->use();
@@ -513,6 +447,7 @@ class Painter {
     const Asset& asset_;
     const RenderOptions& options_;
     const gl::FloatTarget& target_;
+    bool counted_;
     Scene scene_;
     View view_;
     WantedTexture wanted_;
@@ -541,8 +476,16 @@ Status check(const Asset& asset, const RenderOptions& options) {
 
 }  // namespace
 
-Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options) {
-    if (Status status = check(asset, options); !status) return status.error();
+namespace {
+
+// A context whose target, cleared to `background`, is bound.
+struct Canvas {
+    std::unique_ptr<gl::Context> context;
+    std::unique_ptr<gl::FloatTarget> target;
+    const gl::Functions& gl() const { return context->functions(); }
+};
+
+Result<Canvas> open_canvas(const RenderOptions& options, const std::array<float, 3>& background) {
     auto context = gl::open_context(options.backend);
     if (!context) return context.error();
     const gl::Functions& gl = (*context)->functions();
@@ -550,13 +493,21 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     if (!target) return target.error();
     gl.Enable(GL_DEPTH_TEST);
     gl.CullFace(GL_BACK);
-    gl.ClearColor(to_linear(options.background[0]), to_linear(options.background[1]),
-                  to_linear(options.background[2]), 0.0f);
+    gl.ClearColor(to_linear(background[0]), to_linear(background[1]), to_linear(background[2]), 0.0f);
     (*target)->bind();
+    return Canvas{std::move(*context), std::move(*target)};
+}
+
+}  // namespace
+
+Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options) {
+    if (Status status = check(asset, options); !status) return status.error();
+    const auto canvas = open_canvas(options, options.background);
+    if (!canvas) return canvas.error();
     const bool two = options.samples == 2 && options.antialiasing == Antialiasing::points;
     const std::vector<Vec2> places = two ? gl::two_sample_places() : gl::sample_places(sample_side(options));
-    Painter painter(gl, asset, options, **target);
-    Accumulator sums(options.width, options.height);
+    Painter painter(canvas->gl(), asset, options, *canvas->target);
+    gl::Accumulator sums(options.width, options.height);
     for (std::size_t k = 0; k < places.size(); ++k) {
         if (k == 4) sums.keep_uneven();
         const auto drawn = painter.draw_sample(places[k], sums.wanted());
@@ -564,6 +515,27 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
         sums.add(*drawn);
     }
     return sums.image();
+}
+
+Result<FetchCounts> count_fetches(const Asset& asset, const RenderOptions& wanted) {
+    RenderOptions options = wanted;
+    options.samples = 1;
+    options.one_run = true;
+    if (Status status = check(asset, options); !status) return status.error();
+    const auto canvas = open_canvas(options, {0, 0, 0});
+    if (!canvas) return canvas.error();
+    Painter painter(canvas->gl(), asset, options, *canvas->target, true);
+    const auto drawn = painter.draw_sample(gl::sample_places(1)[0], std::vector<std::uint8_t>(std::size_t(options.width) * std::size_t(options.height), 255));
+    if (!drawn) return drawn.error();
+    FetchCounts counts;
+    for (std::size_t i = 0; i < drawn->size(); i += 4) {
+        const float* pixel = drawn->data() + i;
+        if (pixel[0] == 0.0f) continue;  // it shows no pattern
+        counts.pixels += 1.0;
+        counts.cells += double(pixel[0]), counts.elements += double(pixel[1]), counts.lists += double(pixel[2]), counts.others += double(pixel[3]);
+    }
+    for (double* sum : {&counts.cells, &counts.elements, &counts.lists, &counts.others}) *sum /= std::max(counts.pixels, 1.0);
+    return counts;
 }
 
 }  // namespace burin

@@ -93,6 +93,17 @@ struct RenderOptions {
 // on two cores, with shadows, and 3 to 8 s to build a program the first time (Mesa keeps it: half a second from then on).
 Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options = {});
 
+// What a pixel that shows a pattern fetches for one sample: texels in the mean. Cells are the turns of the outer loop, lists and elements
+// those of the inner one (an element takes three or more); others are styles, profiles, materials and functions.
+struct FetchCounts {
+    double pixels = 0.0;
+    double cells = 0.0, elements = 0.0, lists = 0.0, others = 0.0;
+    double all() const { return cells + elements + lists + others; }
+};
+
+// Draws one sample of each pixel in one run of the shader, and counts. Fails as render_asset does.
+Result<FetchCounts> count_fetches(const Asset& asset, const RenderOptions& options = {});
+
 struct TopOptions {
     int material = -1;  // index into Asset::materials; -1: the first with a detail
     int samples = 1;    // per texel side, [1, 16]: each texel is the mean of samples x samples points

@@ -312,4 +312,7 @@ void main() {
 #endif
     if (found.w == 0.0) discard;
     color = vec4(found.rgb, float(marks));
+#ifdef BURIN_COUNTED
+    color = burin_fetched;
+#endif
 }

@@ -311,6 +311,32 @@ TEST(RenderAsset, ModelWithoutDetailIsShadedByItsMesh) {
     EXPECT_NE(middle[0], corner[0]);
 }
 
+// From straight above a ray over bare ground asks one cell and nothing else; a groove asks for elements, and its shadows for more.
+TEST(CountFetches, CountsWhatThePixelsAsk) {
+    Pattern bare = base(), grooved = base();
+    bare.profiles = grooved.profiles = {groove(0.2, 0.015)};
+    grooved.paths = {polyline({{0.0, 0.5}, {1.0, 0.5}}, 0)};
+    RenderOptions options;
+    options.width = options.height = 32;
+    options.camera = {.azimuth = 0.0, .elevation = 90.0, .orthographic = true};
+    options.antialiasing = Antialiasing::points;
+    options.shadows = false;
+    options.backend = backend();
+    const auto ground = count_fetches(plane_with(prepare(bare)), options);
+    SKIP_WITHOUT_CONTEXT(ground);
+    EXPECT_GT(ground->pixels, 900.0);
+    EXPECT_LE(ground->pixels, 1024.0);
+    EXPECT_GE(ground->cells, 1.0);
+    EXPECT_EQ(ground->elements + ground->lists, 0.0);
+    const auto groove = count_fetches(plane_with(prepare(grooved)), options);
+    options.shadows = true;
+    const auto shadowed = count_fetches(plane_with(prepare(grooved)), options);
+    ASSERT_TRUE(groove.ok() && shadowed.ok());
+    EXPECT_GT(groove->elements, 0.1);
+    EXPECT_GT(groove->others, groove->elements);
+    EXPECT_GT(shadowed->all(), 1.2 * groove->all());
+}
+
 TEST(RenderAsset, RefusesWhatItCannotDraw) {
     const PreparedPattern p = prepare(crossing_pattern());
     const Asset plane = plane_with(p);
