@@ -363,9 +363,6 @@ class WantedTexture {
     GLuint name_ = 0;
 };
 
-// Samples per side of a pixel.
-int sample_side(const RenderOptions& options) { return int(std::ceil(std::sqrt(double(options.samples)) - 1e-9)); }
-
 // Rays per side of a sample: an even number, so that they fall into quarters.
 int ray_side(const RenderOptions& options) { return 2 * int(std::ceil(std::sqrt(double(options.rays)) / 2.0 - 1e-9)); }
 
@@ -375,7 +372,10 @@ class Painter {
     // All must outlive it.
     Painter(const gl::Functions& gl, const Asset& asset, const RenderOptions& options, const gl::FloatTarget& target, bool counted = false)
         : gl_(gl), asset_(asset), options_(options), target_(target), counted_(counted),
-          scene_(load_scene(gl, asset, options)), view_(place_camera(asset, options)), wanted_(gl) {}
+          scene_(load_scene(gl, asset, options)), view_(place_camera(asset, options)), wanted_(gl),
+          samples_(gl::sample_grid(options.samples, options.antialiasing == Antialiasing::regions)) {}
+
+    const std::vector<Vec2>& places() const { return samples_.places; }
 
     // Linear colours of the pixels that are wanted, lower row first; `place` within the pixel.
     Result<std::vector<float>> draw_sample(Vec2 place, const std::vector<std::uint8_t>& wanted) {
@@ -405,8 +405,8 @@ class Painter {
         if (options_.environment)
             scene_.environment->bind(*built, options_.environment->rotation, options_.environment->strength);
         built->set("side", ray_side(options_));
-        built->set("cells", ray_side(options_) * sample_side(options_));
-        built->set("pixel_part", 1.0f / float(sample_side(options_)));
+        built->set("cells", ray_side(options_) * samples_.side);
+        built->set("pixel_part", float(samples_.part.x), float(samples_.part.y));
         built->set("wanted", 2);
         return &*built;
     }
@@ -420,7 +420,7 @@ class Painter {
         gl_.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix_));
         program.set("ray_place", float(place.middle.x), float(place.middle.y));
         program.set("ray_shift", float(place.shift.x), float(place.shift.y));
-        const gl::RayCell first = gl::first_ray_cell(ray_side(options_), sample_, sample_side(options_));
+        const gl::RayCell first = gl::first_ray_cell(ray_side(options_), sample_, samples_.side);
         program.set("first_cell", float(first.column), float(first.row));
         draw_pass(gl_, program, asset_, scene_);
         return target_.read(0);
@@ -431,7 +431,7 @@ class Painter {
         std::vector<std::uint8_t> marks(pixels.size() / 4);
         for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = std::uint8_t(pixels[4 * i + 3]);
         if (std::all_of(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark == 0; })) return Done{};
-        for (const gl::RayPlace& place : gl::ray_places(ray_side(options_), sample_, sample_side(options_))) {
+        for (const gl::RayPlace& place : gl::ray_places(ray_side(options_), sample_, samples_.side)) {
             const auto found = draw(FILTER_RAYS, place, marks);
             if (!found) return found.error();
             const int quarter = (place.middle.x < 0.0 ? 0 : 1) + (place.middle.y < 0.0 ? 0 : 2);
@@ -451,6 +451,7 @@ class Painter {
     Scene scene_;
     View view_;
     WantedTexture wanted_;
+    gl::SampleGrid samples_;
     glm::mat4 matrix_{1.0f};
     Vec2 sample_{};  // at hand
     std::array<std::optional<gl::Program>, 3> programs_;  // by FILTER_*
@@ -504,13 +505,11 @@ Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options)
     if (Status status = check(asset, options); !status) return status.error();
     const auto canvas = open_canvas(options, options.background);
     if (!canvas) return canvas.error();
-    const bool two = options.samples == 2 && options.antialiasing == Antialiasing::points;
-    const std::vector<Vec2> places = two ? gl::two_sample_places() : gl::sample_places(sample_side(options));
     Painter painter(canvas->gl(), asset, options, *canvas->target);
     gl::Accumulator sums(options.width, options.height);
-    for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t k = 0; k < painter.places().size(); ++k) {
         if (k == 4) sums.keep_uneven();
-        const auto drawn = painter.draw_sample(places[k], sums.wanted());
+        const auto drawn = painter.draw_sample(painter.places()[k], sums.wanted());
         if (!drawn) return drawn.error();
         sums.add(*drawn);
     }
@@ -525,7 +524,7 @@ Result<FetchCounts> count_fetches(const Asset& asset, const RenderOptions& wante
     const auto canvas = open_canvas(options, {0, 0, 0});
     if (!canvas) return canvas.error();
     Painter painter(canvas->gl(), asset, options, *canvas->target, true);
-    const auto drawn = painter.draw_sample(gl::sample_places(1)[0], std::vector<std::uint8_t>(std::size_t(options.width) * std::size_t(options.height), 255));
+    const auto drawn = painter.draw_sample(painter.places()[0], std::vector<std::uint8_t>(std::size_t(options.width) * std::size_t(options.height), 255));
     if (!drawn) return drawn.error();
     FetchCounts counts;
     for (std::size_t i = 0; i < drawn->size(); i += 4) {

@@ -74,7 +74,7 @@ struct RenderOptions {
     // Depths are those of the relief, not of the mesh, so that other things that stand in it, and effects that read the
     // depth, agree with it. Costs the early depth test: what is hidden is drawn all the same.
     bool correct_depth = false;
-    // Per pixel, [1, 256], rounded up to a square number; with points 2 stays 2. Four come first; the rest go where those or their
+    // Per pixel, [1, 256], rounded up to a square number; 2 stays 2. Four come first; the rest go where those or their
     // neighbours differ by a step of the picture's 8 bits.
     int samples = 4;
     Antialiasing antialiasing = Antialiasing::regions;

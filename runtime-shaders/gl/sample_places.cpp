@@ -13,9 +13,7 @@ Vec2 middle_of(int column, int row, int side) { return {(column + 0.5) / side - 
 // From the middle of a cell, in cells.
 double shift_of(int line, int side) { return side < LEAST_MOVED_SIDE ? 0.0 : (MOVED_TURN(line, side) + 0.5) / side - 0.5; }
 
-}  // namespace
-
-std::vector<Vec2> sample_places(int side) {
+std::vector<Vec2> square_places(int side) {
     std::vector<Vec2> places;
     for (int k = 0; k < side * side; ++k) places.push_back(middle_of(k % side, k / side, side));
     for (std::size_t i = 0; i < 4 && places.size() > 4; ++i) {
@@ -28,7 +26,14 @@ std::vector<Vec2> sample_places(int side) {
     return places;
 }
 
-std::vector<Vec2> two_sample_places() { return {{-0.25, -0.25}, {0.25, 0.25}}; }
+}  // namespace
+
+SampleGrid sample_grid(int count, bool areas) {
+    if (count == 2 && areas) return {1, {{-0.25, 0.0}, {0.25, 0.0}}, {0.5, 1.0}};
+    if (count == 2) return {1, {{-0.25, -0.25}, {0.25, 0.25}}, {0.5, 0.5}};
+    const int side = int(std::ceil(std::sqrt(double(count)) - 1e-9));
+    return {side, square_places(side), {1.0 / side, 1.0 / side}};
+}
 
 RayCell first_ray_cell(int side, Vec2 sample, int samples) {
     return {int((sample.x + 0.5) * samples) * side, int((sample.y + 0.5) * samples) * side};

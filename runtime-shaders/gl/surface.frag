@@ -9,7 +9,7 @@ uniform int cells;          // of the pixel, per side, one for each ray of all i
 uniform vec2 first_cell;    // of this sample
 uniform vec2 ray_place;     // of FILTER_RAYS, within the pixel, -0.5 to 0.5
 uniform vec2 ray_shift;     // and by how much it lies elsewhere at grazing angles
-uniform float pixel_part;   // side of what is filtered, in pixels: below 1 where several pictures are averaged
+uniform vec2 pixel_part;    // width and height of what is filtered, in pixels: below 1 where several pictures are averaged
 uniform highp sampler2D wanted;  // one texel per pixel, a bit per quarter: 0 where the picture needs no further sample
 layout(location = 0) out vec4 color;
 
@@ -272,8 +272,8 @@ void main() {
     if (!is_wanted()) discard;
     to_eye = dot(view, view) > 0.0 ? -view : normalize(eye - world_position);
     vec3 n = normalize(world_normal);
-    uv_along_x = dFdx(pattern_uv) * pixel_part;
-    uv_along_y = dFdy(pattern_uv) * pixel_part;
+    uv_along_x = dFdx(pattern_uv) * pixel_part.x;
+    uv_along_y = dFdy(pattern_uv) * pixel_part.y;
     look_start = pattern_uv * burin_map.size;
     look_x = uv_along_x * burin_map.size;
     look_y = uv_along_y * burin_map.size;

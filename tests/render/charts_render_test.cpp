@@ -10,6 +10,7 @@
 #include <gl/render.hpp>
 
 #include "../judge/context.hpp"
+#include "../judge/pictures.hpp"
 #include "../shader/patterns.hpp"
 #include "../shader/rays.hpp"
 
@@ -110,15 +111,6 @@ Asset plane_with(const PreparedPattern& p, Cut cut) {
     asset.materials.push_back(material);
     asset.primitives.push_back(plane);
     return asset;
-}
-
-double psnr(const RgbaImage& a, const RgbaImage& b) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.texels.size(); ++i) {
-        const double off = double(a.texels[i]) - double(b.texels[i]);
-        sum += off * off;
-    }
-    return 10.0 * std::log10(255.0 * 255.0 * double(a.texels.size()) / std::max(sum, 1e-9));
 }
 
 TEST(ChartsRender, ACutLeavesNoTrace) {

@@ -12,6 +12,7 @@
 #include <gl/render.hpp>
 
 #include "../judge/context.hpp"
+#include "../judge/pictures.hpp"
 #include "../shader/patterns.hpp"
 #include "../shader/rays.hpp"
 
@@ -209,12 +210,31 @@ TEST(RenderAsset, TwoSamplesAreTwo) {
     RenderOptions options{.width = 64, .height = 48, .samples = 2, .antialiasing = Antialiasing::points, .backend = backend()};
     options.camera.orthographic = true;
     options.light.strength = 0.0;
-    const auto picture = render_asset(plane, options);
-    SKIP_WITHOUT_CONTEXT(picture);
-    ASSERT_TRUE(picture.ok());
-    std::set<int> shades;
-    for (std::size_t i = 0; i < picture->texels.size(); i += 4) shades.insert(picture->texels[i]);
-    EXPECT_EQ(shades.size(), 3u);
+    for (const Antialiasing kind : {Antialiasing::points, Antialiasing::regions}) {
+        options.antialiasing = kind;
+        const auto picture = render_asset(plane, options);
+        SKIP_WITHOUT_CONTEXT(picture);
+        std::set<int> shades;
+        for (std::size_t i = 0; i < picture->texels.size(); i += 4) shades.insert(picture->texels[i]);
+        EXPECT_EQ(shades.size(), 3u);
+    }
+}
+
+// As areas the two halves of a pixel come to what the whole pixel does.
+TEST(RenderAsset, TwoSamplesAreTheHalvesOfAPixel) {
+    const Asset plane = plane_with(prepare(crossing_pattern()));
+    RenderOptions options{.width = 120, .height = 90, .backend = backend()};
+    const auto drawn = [&](int samples) {
+        options.samples = samples;
+        return render_asset(plane, options);
+    };
+    const auto best = drawn(16), two = drawn(2), one = drawn(1);
+    SKIP_WITHOUT_CONTEXT(two);
+    ASSERT_TRUE(best.ok() && one.ok());
+    const double error_of_two = psnr(*two, *best), error_of_one = psnr(*one, *best);
+    std::printf("two samples %.1f dB, one %.1f dB\n", error_of_two, error_of_one);
+    EXPECT_GT(error_of_two, 36.0);
+    EXPECT_GT(error_of_two, error_of_one);
 }
 
 // What an engine does in one run of the shader, and what suits a CPU.
