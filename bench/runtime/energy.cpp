@@ -42,7 +42,10 @@ Mean truth_mean(const Subject& subject, const PlaneView& view, const Extent& ext
 }
 
 void measure(const Settings& settings, const Subject& subject) {
-    if (subject.prepared.resolved.wrap != Wrap::repeat) return;
+    if (subject.prepared.resolved.wrap != Wrap::repeat) {
+        std::printf("| %s | one tile only: not asked |\n", subject.name.c_str());
+        return;
+    }
     const double cell = subject.prepared.resolved.size.x / subject.prepared.textures.grid_width;
     for (const double cells : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0}) {
         PlaneView view = standard_views(subject, 64, 48)[1];

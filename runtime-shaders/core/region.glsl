@@ -164,6 +164,14 @@ float burin_ground_at(BurinRay ray, vec2 place) {
     vec2 centre = burin_cell_centre(index);
     return burin_step_line(burin_wrapped_cell(index), ray, centre, centre * burin_map.size - ray.origin, place, 0.0f, true).level;
 }
+
+// Whether the ray comes to ground at this drop, and not first to what it enters over.
+bool burin_sees_ground(BurinRay ray, float drop) {
+    float film = BURIN_FILM * burin_map.depth;
+    if (abs(burin_ground_at(ray, ray.slope * drop) - drop) > film) return false;
+    float above = burin_ground_at(ray, ray.slope * burin_map.drop_range.x);
+    return above > drop - film || burin_ground_at(ray, ray.slope * above) > above + film;
+}
 #endif
 
 void burin_add_shown(BurinShown shown, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows,
@@ -206,10 +214,9 @@ void burin_add_shown(BurinShown shown, BurinRay ray, BurinFootprint footprint, v
     if (area * region.covered_area > BURIN_LEAST_AREA) region.special = region.special | (region.covered & mask);
     region.special = region.special | (region.covered & region.deep_shadow) | (region.deep_shadows & mask);
 #if BURIN_STEPS != 0
-    // The ground that the shadow is meant for may end before it does.
+    // The ground that the shadow is meant for may end before it does, or other ground hide it.
     float foot = dot(light_slope, stretch.normal) > 0.0f ? shown.style.right_level : shown.style.level;
-    if (region.thrown != 0u && abs(burin_ground_at(ray, ray.slope * foot) - foot) > BURIN_FILM * burin_map.depth)
-        region.special = region.special | region.thrown;
+    if (region.thrown != 0u && !burin_sees_ground(ray, foot)) region.special = region.special | region.thrown;
 #endif
     region.covered = region.covered | mask;
     region.deep_shadows = region.deep_shadows | region.deep_shadow;

@@ -536,9 +536,13 @@ uint burin_add_stripe(BurinElement e, BurinStyle style, BurinStretch stretch, Bu
         last = next;
         if (k + 1 >= style.count) break;
     }
-    uint mask = burin_strip_mask(front, far);
+    // A step seen from above hides what lies on its lower side, as far as its foot would show.
+    BurinRail nearest = front;
+    if (last.way.x * order < nearest.way.x * order) burin_take_start(nearest, last);
+    if (last.way.y * order < nearest.way.y * order) burin_take_end(nearest, last);
+    uint mask = burin_strip_mask(nearest, far);
     vec2 whole = vec2(1.0f, 1.0f);
-    float area = burin_strip_area(front, far, whole * 0.0f, whole);
+    float area = burin_strip_area(nearest, far, whole * 0.0f, whole);
     // What is taken away is taken from all that stands over it, and from its shadow.
     float over = style.level - burin_map.drop_range.x;
     bool taken = sunk && !style.stepped && over > BURIN_FILM * burin_map.depth;

@@ -7,7 +7,9 @@ uniform float ambient;
 // The pixel's own: set by main before anything is shaded.
 vec3 to_eye;
 mat3 to_pattern;     // world directions to pattern space
-vec2 rest_slopes;    // of the residual
+vec2 rest_slopes;    // of the residual, at what is shaded
+vec2 uv_along_x;     // sides of what is filtered
+vec2 uv_along_y;
 bool light_above;    // the object surface faces the light; else nothing of it is lit
 bool along_look;     // what is shaded lies on the straight ray of look_origin and look_slope, at its own drop
 
@@ -62,7 +64,9 @@ vec3 shade_surround(vec3 n, Paint paint) {
 
 vec3 painted_color(BurinFacet facet, Paint paint) {
     if (along_look) {
-        bend_moved = look_origin + look_slope * facet.drop - bend_start;
+        vec2 place = look_origin + look_slope * facet.drop;
+        rest_slopes = fetch_residual(place, uv_along_x, uv_along_y);
+        bend_moved = place - bend_start;
         bend_drop = facet.drop;
     }
     vec3 leaning = burin_add_slopes(facet.normal, rest_slopes);

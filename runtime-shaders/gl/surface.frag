@@ -13,8 +13,6 @@ uniform vec2 pixel_part;    // width and height of what is filtered, in pixels: 
 uniform highp sampler2D wanted;  // one texel per pixel, a bit per quarter: 0 where the picture needs no further sample
 layout(location = 0) out vec4 color;
 
-vec2 uv_along_x;
-vec2 uv_along_y;
 vec2 light_slope;   // metres that the light moves over the plane per metre of fall
 int chart;
 vec3 eye_direction;  // in the local frame, of unit length in space
@@ -147,7 +145,6 @@ Areas areas_of(Part part, bool whole, bool gather) {
     look_x = part.along_x;
     look_y = part.along_y;
     along_look = true;
-    rest_slopes = fetch_residual(place, uv_along_x, uv_along_y);
     ground_paint = paint_of(0u, look_at(vec3(0.0, 0.0, 1.0), level));
     vec3 ground = ground_color(level, 1.0);
     BurinFootprint footprint = burin_footprint(part.along_x, part.along_y);
@@ -168,27 +165,35 @@ Areas areas_of(Part part, bool whole, bool gather) {
     return areas;
 }
 
-// Bits of the parts that rays should be asked of: 1 << 0 for the whole, 1 << 1 to 1 << 4 for its quarters. The others add to `sum`
-// and to the number of `parts`. `drop`: where the straight ray meets the true one.
+// Bits of the quarters that rays should be asked of, 1 << 1 to 1 << 4. The others add to `sum` and to the number of `parts`, the whole
+// pixel as four. `drop`: where the straight ray meets the true one.
 uint sum_areas(BurinRay straight, float drop, vec2 along_x, vec2 along_y, BURIN_INOUT(vec3) sum, BURIN_INOUT(float) parts) {
     uint special = 0u;
     stand_at(straight.origin + straight.slope * drop - bend_start, drop);
     bool gather = true;
+    float asked = 0.0;
     for (int i = 0; i <= 4; ++i) {
         Areas said = areas_of(part_of(straight, along_x, along_y, i), i == 0, gather);
         gather = i == 0 ? !burin_gathered.complete : gather;
         // The whole pixel at once where its features do not meet; else its quarters, unless they cannot do better.
         bool done = i == 0 && (said.far || !said.special);
-        if (i == 0 && !done && said.bent) special = 30u;
-        if (special == 30u) break;
-        if (i > 0 && said.special) special = special | (1u << uint(i));
+        if (i == 0 && !done && said.bent) break;
+        if (i > 0 && said.special) {
+            special = special | (1u << uint(i));
+            asked += 1.0;
+        }
         if (done || (i > 0 && !said.special)) {
-            sum += said.color;
-            parts += 1.0;
+            float share = done ? 4.0 : 1.0;
+            sum += said.color * share;
+            parts += share;
         }
         if (done || i == 4) break;
     }
-    return special;
+    if (parts + asked == 4.0) return special;
+    // Bent, or not looked at to the end: a driver may end loops that turn too often (OSMesa after 65535 turns).
+    sum = vec3(0.0);
+    parts = 0.0;
+    return 30u;
 }
 
 #endif

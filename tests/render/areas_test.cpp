@@ -8,6 +8,7 @@
 
 #include <gl/render.hpp>
 
+#include "../../samples/scenes/build.hpp"
 #include "../../samples/scenes/scenes.hpp"
 #include "../../samples/write_scene.hpp"
 #include "../judge/context.hpp"
@@ -29,11 +30,7 @@ constexpr Look kLooks[] = {
     {"letters", 16.0, 75.0, {0.55, 0.6}}, {"sunken_square", 6.0, 60.0, {0.4, 0.45}},
 };
 
-Asset asset_of(const std::string& name) {
-    scenes::Scene scene;
-    for (const scenes::SceneEntry& entry : scenes::scene_table())
-        if (entry.name == name) scene = entry.make();
-    const scenes::Part& part = scene.parts.at(0);
+Asset asset_of(const scenes::Part& part) {
     auto prepared = prepare_pattern(part.pattern, {});
     EXPECT_TRUE(prepared.ok());
     MaterialInfo material = scenes::material_of(part);
@@ -73,6 +70,13 @@ int count_off(const RgbaImage& a, const RgbaImage& b, int most) {
     return off;
 }
 
+Asset asset_of(const std::string& name) {
+    scenes::Scene scene;
+    for (const scenes::SceneEntry& entry : scenes::scene_table())
+        if (entry.name == name) scene = entry.make();
+    return asset_of(scene.parts.at(0));
+}
+
 TEST(Areas, ShowWhatRaysMeet) {
     for (const Look& look : kLooks) {
         const Asset asset = asset_of(look.scene);
@@ -84,6 +88,31 @@ TEST(Areas, ShowWhatRaysMeet) {
         const int off = count_off(*areas, *rays, 40);
         RecordProperty(std::string(look.scene) + "_" + std::to_string(int(look.elevation)), off);
         EXPECT_LE(off, 8) << look.scene << " from " << look.elevation << " degrees: pixels of 19200";
+    }
+}
+
+// Two slabs with a gap between them: over the edge of the near one neither the far one's side shows, nor the shadow that it throws on the
+// ground of the gap.
+TEST(Areas, SlabsHideWhatLiesInTheGap) {
+    Pattern pattern;
+    pattern.size = {1.0, 1.0};
+    pattern.depth = 0.02;
+    pattern.wrap = Wrap::clamp;
+    pattern.outer_level = -0.018;
+    pattern.profiles = {scenes::rise(0.004, 0.018)};
+    for (const double x : {0.05, 0.515})
+        pattern.paths.push_back(scenes::polygon({{x, 0.05}, {x + 0.435, 0.05}, {x + 0.435, 0.95}, {x, 0.95}}).path(0, 0, -0.018));
+    scenes::Part part{"slabs", pattern, scenes::on_plane(pattern, {0.8f, 0.8f, 0.8f}, 0.0f, 0.5f).parts[0].mesh};
+    const Asset asset = asset_of(part);
+    for (const double azimuth : {60.0, 100.0}) {
+        const RenderOptions options = options_from({.azimuth = azimuth, .elevation = 10.0, .zoom = 3.0, .center = Vec2{0.53, 0.5}});
+        const auto areas = render_asset(asset, options);
+        SKIP_WITHOUT_CONTEXT(areas);
+        const auto rays = render_asset(asset, by_rays(options));
+        ASSERT_TRUE(rays.ok());
+        const int off = count_off(*areas, *rays, 40);
+        RecordProperty("slabs_" + std::to_string(int(azimuth)), off);
+        EXPECT_LE(off, 30) << azimuth;
     }
 }
 
