@@ -206,16 +206,14 @@ int write_scenes(const std::string& folder, const std::string& name) {
 }
 
 int write_scene_on_model(const std::string& folder, const std::string& name, const std::string& path) {
-    for (const burin::scenes::SceneEntry& entry : burin::scenes::scene_table()) {
-        if (name != entry.name) continue;
-        auto model = burin::read_model(path);
-        if (!model) return report(path + ": " + model.error().message);
-        const auto file = burin::scenes::write_scene_on(entry.make(), std::move(*model));
-        if (!file) return report(name + " on " + path + ": " + file.error().message);
-        const auto written = burin::write_file(folder + "/" + name + ".glb", file->bytes);
-        return written ? 0 : report(written.error().message);
-    }
-    return report("no scene is called '" + name + "'");
+    const burin::scenes::SceneEntry* entry = burin::scenes::find_scene(name);
+    if (entry == nullptr) return report("no scene is called '" + name + "'");
+    const auto model = burin::read_model(path);
+    if (!model) return report(path + ": " + model.error().message);
+    const auto file = burin::scenes::write_scene_on(entry->make(), *model);
+    if (!file) return report(name + " on " + path + ": " + file.error().message);
+    const auto written = burin::write_file(folder + "/" + name + ".glb", file->bytes);
+    return written ? 0 : report(written.error().message);
 }
 
 }  // namespace

@@ -99,13 +99,11 @@ Result<SceneFile> write_scene(const Scene& scene) {
     return file;
 }
 
-Result<SceneFile> write_scene_on(const Scene& scene, Model model, const std::string& material) {
+Result<SceneFile> write_scene_on(const Scene& scene, const Model& model, const std::string& material) {
     const auto target = find_material(model, {.material = material});
     if (!target) return target.error();
-    // Evenly, so that circles stay round where the uvs are.
     Part part = scene.parts.front();
-    const Vec2 there = target->metres_per_uv, here = part.pattern.size;
-    part.pattern = enlarged(std::move(part.pattern), std::sqrt(there.x * there.y / (here.x * here.y)));
+    part.pattern = enlarged_to(std::move(part.pattern), target->metres_per_uv);
     SceneFile file;
     const auto done = add_part(file, model, part, material);
     return done ? Result<SceneFile>(std::move(file)) : done.error();

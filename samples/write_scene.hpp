@@ -24,6 +24,6 @@ Result<SceneFile> write_scene(const Scene& scene);
 
 // The pattern of the first part on a material of another model, enlarged to what one uv unit measures there. `material`: as in
 // AttachOptions.
-Result<SceneFile> write_scene_on(const Scene& scene, Model model, const std::string& material = {});
+Result<SceneFile> write_scene_on(const Scene& scene, const Model& model, const std::string& material = {});
 
 }  // namespace burin::scenes

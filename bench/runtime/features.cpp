@@ -62,9 +62,7 @@ Result<Sheet> make_sheet(int side, int tiles, const PlaneView& view) {
     return sheet;
 }
 
-double nanoseconds_of(const Asset& asset, RenderOptions options, const Settings& settings) {
-    options.backend = settings.backend;
-    options.antialiasing = Antialiasing::points;
+double nanoseconds_of(const Asset& asset, const RenderOptions& options, const Settings& settings) {
     PassTimer timer(asset, options);
     for (int k = 0; k < (settings.quick ? 2 : 5); ++k) timer.try_once();
     return timer.seconds() / (options.width * options.height) * 1e9;
@@ -95,14 +93,17 @@ void ask_features(const Settings& settings) {
             continue;
         }
         RenderOptions options = options_of(view, sheet->subject.prepared.resolved.size);
-        const double time = nanoseconds_of(sheet->asset, options, settings);
-        if (first == 0.0) first = time;
         options.antialiasing = Antialiasing::points;
         options.backend = settings.backend;
-        const auto counted = count_fetches(sheet->asset, options);
-        const FetchCounts work = counted ? *counted : FetchCounts{};
+        const auto work = count_fetches(sheet->asset, options);
+        if (!work) {
+            std::printf("| %d | %d | %s |\n", row.side * row.side * row.tiles * row.tiles, row.tiles * row.tiles, work.error().message.c_str());
+            continue;
+        }
+        const double time = nanoseconds_of(sheet->asset, options, settings);
+        if (first == 0.0) first = time;
         std::printf("| %d | %d | %.2f | %.2f | %.0f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", row.side * row.side * row.tiles * row.tiles,
-                    row.tiles * row.tiles, sheet->bytes / 1e6, row.side * kSpacing * 1e3 / sheet->subject.prepared.textures.grid_width, time, time / first, work.cells, work.lists, work.elements, work.others);
+                    row.tiles * row.tiles, sheet->bytes / 1e6, row.side * kSpacing * 1e3 / sheet->subject.prepared.textures.grid_width, time, time / first, work->cells, work->lists, work->elements, work->others);
         std::fflush(stdout);
     }
 }

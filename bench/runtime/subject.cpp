@@ -134,9 +134,7 @@ Asset asset_of(const Subject& subject, const Extent& extent) {
         }
     plane.indices = {0, 2, 1, 1, 2, 3};
     MaterialInfo material = scenes::material_of(subject.part());
-    material.has_detail = true;
-    material.detail = subject.prepared.detail;
-    material.textures = subject.prepared.textures;
+    testing::put_pattern(subject.prepared, material);
     Asset asset;
     asset.primitives.push_back(std::move(plane));
     asset.materials.push_back(std::move(material));

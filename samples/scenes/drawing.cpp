@@ -144,6 +144,11 @@ Pattern enlarged(Pattern pattern, double factor) {
     return pattern;
 }
 
+Pattern enlarged_to(Pattern pattern, Vec2 size) {
+    const double factor = std::sqrt(size.x * size.y / (pattern.size.x * pattern.size.y));
+    return enlarged(std::move(pattern), factor);
+}
+
 double path_length(const Path& path) {
     double sum = 0.0;
     for (const Element& e : path.elements) sum += length_of(e);

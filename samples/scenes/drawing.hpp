@@ -48,6 +48,8 @@ Stroke smooth(const std::function<Vec2(double)>& at, int pieces);
 Path mapped(Path path, const std::function<Vec2(Vec2)>& to);
 // Every length of the pattern times `factor`, > 0: the same relief, larger.
 Pattern enlarged(Pattern pattern, double factor);
+// To the area of a tile of that size, evenly, so that circles stay round where the uvs are.
+Pattern enlarged_to(Pattern pattern, Vec2 size);
 
 // Width and height scales by arc length, from 0 at the start to 1 at the end. Elements are cut into pieces until the
 // straight run of the scales between their ends stays within `tolerance` of the functions.

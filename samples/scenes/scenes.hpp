@@ -10,6 +10,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <burin/model.hpp>
@@ -57,6 +58,8 @@ struct SceneEntry {
 
 // Every scene there is, those of one source together.
 const std::vector<SceneEntry>& scene_table();
+// The one of that name; null where there is none.
+const SceneEntry* find_scene(std::string_view name);
 
 // The glTF model of a scene, one material per part, without the patterns.
 Model model_of(const Scene& scene);

@@ -32,4 +32,10 @@ const std::vector<SceneEntry>& scene_table() {
     return table;
 }
 
+const SceneEntry* find_scene(std::string_view name) {
+    for (const SceneEntry& entry : scene_table())
+        if (entry.name == name) return &entry;
+    return nullptr;
+}
+
 }  // namespace burin::scenes

@@ -145,6 +145,12 @@ Result<PreparedPattern> prepare_pattern(const Pattern& pattern, const GridOption
     return p;
 }
 
+void put_pattern(const PreparedPattern& pattern, MaterialInfo& material) {
+    material.has_detail = true;
+    material.detail = pattern.detail;
+    material.textures = pattern.textures;
+}
+
 std::vector<AimedRay> aim_rays(const PreparedPattern& p, int count, std::uint64_t seed) {
     Random random(seed);
     std::vector<AimedRay> rays;

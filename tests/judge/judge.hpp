@@ -41,6 +41,9 @@ struct PreparedPattern {
 // Fails as the first stage that does.
 Result<PreparedPattern> prepare_pattern(const Pattern& pattern, const GridOptions& options = {});
 
+// Draws the material with the pattern.
+void put_pattern(const PreparedPattern& pattern, MaterialInfo& material);
+
 // Slopes reach about 3 (70 degrees from upright). Equal for equal seeds.
 std::vector<AimedRay> aim_rays(const PreparedPattern& pattern, int count, std::uint64_t seed);
 

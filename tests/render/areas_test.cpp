@@ -34,9 +34,7 @@ Asset asset_of(const scenes::Part& part) {
     auto prepared = prepare_pattern(part.pattern, {});
     EXPECT_TRUE(prepared.ok());
     MaterialInfo material = scenes::material_of(part);
-    material.has_detail = true;
-    material.detail = prepared->detail;
-    material.textures = prepared->textures;
+    put_pattern(*prepared, material);
     Primitive primitive;
     primitive.positions = part.mesh.positions;
     primitive.normals = part.mesh.normals;
@@ -70,16 +68,9 @@ int count_off(const RgbaImage& a, const RgbaImage& b, int most) {
     return off;
 }
 
-Asset asset_of(const std::string& name) {
-    scenes::Scene scene;
-    for (const scenes::SceneEntry& entry : scenes::scene_table())
-        if (entry.name == name) scene = entry.make();
-    return asset_of(scene.parts.at(0));
-}
-
 TEST(Areas, ShowWhatRaysMeet) {
     for (const Look& look : kLooks) {
-        const Asset asset = asset_of(look.scene);
+        const Asset asset = asset_of(scenes::find_scene(look.scene)->make().parts.at(0));
         const RenderOptions options = options_from({.azimuth = 37.0, .elevation = look.elevation, .zoom = look.zoom, .center = look.center});
         const auto areas = render_asset(asset, options);
         SKIP_WITHOUT_CONTEXT(areas);
@@ -123,20 +114,17 @@ TEST(Areas, AreShadedAsRaysAreOnArmour) {
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "SKIPPED: " << path << " is not there";
     auto model = read_model(path);
     ASSERT_TRUE(model.ok());
-    for (const scenes::SceneEntry& entry : scenes::scene_table()) {
-        if (entry.name != std::string("engraved_armour")) continue;
-        const auto file = scenes::write_scene_on(entry.make(), *model);
-        ASSERT_TRUE(file.ok()) << file.error().message;
-        const auto asset = read_asset(file->bytes);
-        ASSERT_TRUE(asset.ok());
-        RenderOptions options = options_from({.azimuth = -25.0, .elevation = 12.0, .zoom = 14.0, .center = Vec2{0.098, 0.325}});
-        options.light = {.azimuth = -70.0, .elevation = 40.0};
-        const auto areas = render_asset(*asset, options);
-        SKIP_WITHOUT_CONTEXT(areas);
-        const auto rays = render_asset(*asset, by_rays(options));
-        ASSERT_TRUE(rays.ok());
-        EXPECT_LE(count_off(*areas, *rays, 3), 220) << "pixels of 19200";
-    }
+    const auto file = scenes::write_scene_on(scenes::find_scene("engraved_armour")->make(), *model);
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    const auto asset = read_asset(file->bytes);
+    ASSERT_TRUE(asset.ok());
+    RenderOptions options = options_from({.azimuth = -25.0, .elevation = 12.0, .zoom = 14.0, .center = Vec2{0.098, 0.325}});
+    options.light = {.azimuth = -70.0, .elevation = 40.0};
+    const auto areas = render_asset(*asset, options);
+    SKIP_WITHOUT_CONTEXT(areas);
+    const auto rays = render_asset(*asset, by_rays(options));
+    ASSERT_TRUE(rays.ok());
+    EXPECT_LE(count_off(*areas, *rays, 3), 220) << "pixels of 19200";
 }
 
 }  // namespace

@@ -39,13 +39,12 @@ Asset asset_of(const CutSetting& s, bool charted) {
     MaterialInfo material;
     material.base_color[0] = material.base_color[1] = material.base_color[2] = 0.4f;
     material.metallic = 0.0f;
-    material.has_detail = true;
-    material.detail = charted ? s.detail : s.pattern.detail;
-    material.textures = s.pattern.textures;
+    put_pattern(s.pattern, material);
     Primitive body;
     const BaseMesh& base = s.mesh.base;
     body.positions = base.positions, body.normals = base.normals, body.uvs = base.uvs, body.indices = base.indices, body.frames = base.frames;
     if (charted) {
+        material.detail.charts = s.table.layout;
         material.charts = s.table.words;
         for (const std::uint32_t chart : s.mesh.charts) body.charts.push_back(float(chart));
     }

@@ -86,9 +86,7 @@ Asset plane_with(const PreparedPattern& p, Cut cut) {
     material.base_color[0] = material.base_color[1] = material.base_color[2] = 0.5f;
     material.metallic = 0.0f;
     material.roughness = 1.0f;
-    material.has_detail = true;
-    material.detail = p.detail;
-    material.textures = p.textures;
+    put_pattern(p, material);
     Primitive plane;
     for (const auto& [low, high] : {std::pair{0.0, kCut}, std::pair{kCut, 1.0}}) {
         const auto first = std::uint32_t(plane.positions.size() / 3);

@@ -48,12 +48,6 @@ MaterialInfo plain(float albedo, float metallic, float roughness) {
     return material;
 }
 
-void put_pattern(const PreparedPattern& p, MaterialInfo& material) {
-    material.has_detail = true;
-    material.detail = p.detail;
-    material.textures = p.textures;
-}
-
 // Lit by nothing else, one ray a pixel, parallel.
 RenderOptions view_of(double azimuth, double elevation, int side, double zoom) {
     RenderOptions options;

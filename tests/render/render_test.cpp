@@ -26,9 +26,8 @@ Asset plane_with(const PreparedPattern& p, bool patterned = true) {
     material.base_color[0] = material.base_color[1] = material.base_color[2] = 0.5f;
     material.metallic = 0.0f;
     material.roughness = 1.0f;
+    put_pattern(p, material);
     material.has_detail = patterned;
-    material.detail = p.detail;
-    material.textures = p.textures;
     asset.materials.push_back(material);
     const float x = float(p.detail.size_u / 2), z = float(p.detail.size_v / 2);
     Primitive plane;
@@ -238,13 +237,8 @@ TEST(RenderAsset, TwoSamplesAreTheHalvesOfAPixel) {
 }
 
 // What an engine does in one run of the shader, and what suits a CPU.
-TEST(RenderAsset, OneRunDrawsTheSame) {
+void expect_one_run_draws_the_same(RenderOptions options) {
     const Asset plane = plane_with(prepare(crossing_pattern()));
-    RenderOptions options;
-    options.width = options.height = 48;
-    options.samples = 1;
-    options.rays = 4;
-    options.backend = backend();
     const auto runs = render_asset(plane, options);
     SKIP_WITHOUT_CONTEXT(runs);
     options.one_run = true;
@@ -253,18 +247,16 @@ TEST(RenderAsset, OneRunDrawsTheSame) {
     for (std::size_t i = 0; i < runs->texels.size(); ++i) EXPECT_NEAR(runs->texels[i], one->texels[i], 1) << i;
 }
 
+TEST(RenderAsset, OneRunDrawsTheSame) {
+    expect_one_run_draws_the_same({.width = 48, .height = 48, .samples = 1, .rays = 4, .backend = backend()});
+}
+
 // Where the rays of a pixel leave the middles of their cells, and belong to several samples.
 TEST(RenderAsset, OneRunMovesTheSameRays) {
-    const Asset plane = plane_with(prepare(crossing_pattern()));
     RenderOptions options{.width = 48, .height = 48, .samples = 4, .rays = 4, .backend = backend()};
     options.camera.elevation = 12.0;
     options.camera.zoom = 2.0;
-    const auto runs = render_asset(plane, options);
-    SKIP_WITHOUT_CONTEXT(runs);
-    options.one_run = true;
-    const auto one = render_asset(plane, options);
-    ASSERT_TRUE(runs.ok() && one.ok());
-    for (std::size_t i = 0; i < runs->texels.size(); ++i) EXPECT_NEAR(runs->texels[i], one->texels[i], 1) << i;
+    expect_one_run_draws_the_same(options);
 }
 
 // From where a cell is a few pixels to where a pixel is many cells.

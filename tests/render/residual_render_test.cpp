@@ -87,9 +87,7 @@ TEST(RenderResidual, LeansAwayFromWhereItRises) {
     MaterialInfo material;
     material.base_color[0] = material.base_color[1] = material.base_color[2] = 0.5f;
     material.metallic = 0.0f;
-    material.has_detail = true;
-    material.detail = p.detail;
-    material.textures = p.textures;
+    put_pattern(p, material);
     // Red and green of a quarter: the surface rises along u and falls along v, a quarter of the scale each.
     material.residual = {1, 1, {96, 96, 255, 255}};
     material.detail.residual_scale = 1.2;

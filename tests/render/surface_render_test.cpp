@@ -24,9 +24,7 @@ MaterialInfo grey(float value) {
 
 MaterialInfo patterned(const PreparedPattern& p) {
     MaterialInfo material = grey(0.9f);
-    material.has_detail = true;
-    material.detail = p.detail;
-    material.textures = p.textures;
+    put_pattern(p, material);
     return material;
 }
 

@@ -82,15 +82,10 @@ std::vector<std::array<Vec3, 2>> find_borders(const BaseMesh& mesh, const ChartS
 Setting prepare_setting(const Asset& asset, Vec2 metres_per_uv) {
     Setting s;
     s.mesh = joined(asset);
-    for (const scenes::SceneEntry& entry : scenes::scene_table()) {
-        if (entry.name != std::string("engraved_armour")) continue;
-        const Pattern plate = entry.make().parts.front().pattern;
-        const double larger = std::sqrt(metres_per_uv.x * metres_per_uv.y / (plate.size.x * plate.size.y));
-        s.width = kStem * larger;
-        auto prepared = prepare_pattern(scenes::enlarged(plate, larger));
-        EXPECT_TRUE(prepared.ok());
-        if (prepared) s.pattern = std::move(*prepared);
-    }
+    const Pattern plate = scenes::find_scene("engraved_armour")->make().parts.front().pattern;
+    const Pattern engraving = scenes::enlarged_to(plate, metres_per_uv);
+    s.width = kStem * engraving.size.x / plate.size.x;
+    s.pattern = prepare(engraving);
     s.detail = s.pattern.detail;
     const SurfaceMesh view{s.mesh.positions, s.mesh.normals, s.mesh.uvs, s.mesh.indices};
     const Vec2 size{s.detail.size_u, s.detail.size_v};
