@@ -518,6 +518,9 @@ void Tracer::describe_wall(const Near& near, double t, const Form& form, RayHit&
     for (const PreparedEnd& v : e.ends) {
         offer(dot(p - v.vertex, v.outward), v.outward);
         if (v.priority != Priority::none) offer(dot(p - v.vertex, v.clip_inward), v.clip_inward);
+        // The halves of a cap may differ where they meet, beyond the end of the path.
+        if (v.priority == Priority::both && v.end != EndShape::clip && dot(p - v.vertex, v.outward) > 0.0)
+            offer(dot(p - v.vertex, normal_of(v.outward)), normal_of(v.outward));
     }
     for (const ProfilePoint& point : truth_.profiles[e.profile].points)
         offer(local.offset - point.b * local.width, g.offset - g.width * point.b);

@@ -1,0 +1,75 @@
+#include "areas.hpp"
+
+#include <cmath>
+
+#include <burin/evaluate.hpp>
+
+namespace burin::reference {
+namespace {
+
+constexpr int kMostHalvings = 16;
+
+class Finder {
+  public:
+    Finder(const GroovedSurface& surface, const Slopes& slopes, const AreasOptions& options, double whole, AreasWork& work, std::vector<Share>& out)
+        : surface_(surface), slopes_(slopes), options_(options), whole_(whole), work_(work), out_(out) {}
+
+    void find(const Footprint& footprint, int halvings) {
+        gather_grooves(surface_, box_of(footprint), slopes_, work_.gathered);
+        const double tolerance = options_.tolerance * std::sqrt(area_of(footprint));
+        if (work_.gathered.instances.empty() && is_plain()) return find_plain(footprint);
+        if (options_.lines && sample_lines(surface_, work_.gathered, footprint, slopes_, tolerance, whole_, work_.line, out_)) {
+            ++work_.by_line;
+            return;
+        }
+        if (static_cast<int>(work_.gathered.instances.size()) > options_.most_elements && halvings < kMostHalvings) {
+            Footprint first, second;
+            halve(footprint, first, second);
+            find(first, halvings + 1);
+            find(second, halvings + 1);
+            return;
+        }
+        ++work_.by_area;
+        sweep_grooves(surface_, work_.gathered, {tolerance}, work_.geometry);
+        carve_faces(work_.geometry, surface_, work_.gathered, work_.carving);
+        sample_areas(work_.geometry, work_.carving, work_.gathered, footprint, surface_.top(), slopes_, whole_, work_.area, out_);
+    }
+
+  private:
+    // Nothing but one level of ground.
+    bool is_plain() const {
+        const Vec2 size = surface_.pattern().size;
+        const Box& domain = work_.gathered.domain;
+        return surface_.pattern().wrap == Wrap::repeat ||
+               !(domain.low.x < 0.0 || domain.low.y < 0.0 || domain.high.x > size.x || domain.high.y > size.y);
+    }
+    void find_plain(const Footprint& footprint) {
+        const Vec2 middle = middle_of(footprint);
+        const double level = ground_near(surface_, lerp(work_.gathered.seen.low, work_.gathered.seen.high, 0.5));
+        Share share;
+        share.element = share.facet = kGround;
+        share.normal = {0, 0, 1};
+        share.seen = area_of(footprint) / whole_;
+        share.lit = slopes_.lit ? share.seen : 0.0;
+        const Vec2 at = middle + slopes_.view * (surface_.top() - level);
+        share.place = {at.x, at.y, level};
+        out_.push_back(share);
+    }
+
+    const GroovedSurface& surface_;
+    const Slopes& slopes_;
+    const AreasOptions& options_;
+    double whole_;
+    AreasWork& work_;
+    std::vector<Share>& out_;
+};
+
+}  // namespace
+
+void find_areas(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const AreasOptions& options, AreasWork& work,
+                std::vector<Share>& out) {
+    out.clear();
+    Finder(surface, slopes, options, area_of(footprint), work, out).find(footprint, 0);
+}
+
+}  // namespace burin::reference

@@ -1,0 +1,43 @@
+// How much of a footprint shows each facet, and how much of that the light reaches: the core of the renderer. [2008] 5 and 6
+//
+//     footprint, view, light --[find_areas]--> shares of the footprint by facet
+//
+// Where all that matters is one groove or several beside each other, the cross-section is enough (line sampling, [2008] 5, with
+// the footprint's own width at each offset in place of a mean one, so that shares are exact for straight grooves); where
+// grooves meet or end, faces are polygons (area sampling, [2008] 6). Large footprints with many grooves are divided.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "area_sampling.hpp"
+#include "carve.hpp"
+#include "footprint.hpp"
+#include "gather.hpp"
+#include "line_sampling.hpp"
+#include "share.hpp"
+
+namespace burin::reference {
+
+struct AreasOptions {
+    double tolerance = 0.004;  // of the footprint's radius: how far bent grooves may lie from the straight pieces that stand for them
+    int most_elements = 24;    // more near a footprint: it is divided
+    bool lines = true;         // false: area sampling everywhere, for tests
+};
+
+// Memory of one thread.
+struct AreasWork {
+    Gathered gathered;
+    LocalGeometry geometry;
+    Carving carving;
+    AreaSampling area;
+    LineSampling line;
+    long by_line = 0, by_area = 0;  // footprints, or parts of them, that each has done
+};
+
+// Fills `out`: shares that sum to 1, in the order of elements and facets within a part of the footprint; the same facet may
+// stand there more than once. Requires: a footprint of positive area. Cost: 1 us for a groove, 10 us where two cross.
+void find_areas(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const AreasOptions& options,
+                AreasWork& work, std::vector<Share>& out);
+
+}  // namespace burin::reference

@@ -1,0 +1,145 @@
+#include "gather.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "layout.h"
+
+#include "evaluate_prepare.hpp"
+
+namespace burin::reference {
+namespace {
+
+void sweep_box(Box& box, Vec2 by) {
+    const Box moved{box.low + by, box.high + by};
+    include(box, moved.low);
+    include(box, moved.high);
+}
+
+struct CellRange {
+    int low[2], high[2];  // both included; not yet wrapped
+};
+
+CellRange cells_of(const GroovedSurface& surface, const Box& box) {
+    const CellGrid& grid = surface.grid();
+    const Vec2 size = surface.pattern().size;
+    const auto cell = [](double at, double side, int count) {
+        return static_cast<int>(std::floor(std::clamp(at / side * count, -1e8, 1e8)));
+    };
+    CellRange range{{cell(box.low.x, size.x, grid.cols), cell(box.low.y, size.y, grid.rows)},
+                    {cell(box.high.x, size.x, grid.cols), cell(box.high.y, size.y, grid.rows)}};
+    if (surface.pattern().wrap == Wrap::repeat) return range;
+    const int last[2] = {grid.cols - 1, grid.rows - 1};
+    for (int axis = 0; axis < 2; ++axis) {
+        range.low[axis] = std::max(range.low[axis], 0);
+        range.high[axis] = std::min(range.high[axis], last[axis]);
+    }
+    return range;
+}
+
+int wrapped(int i, int count) {
+    const int rest = i % count;
+    return rest < 0 ? rest + count : rest;
+}
+
+// The image that a cell means: the nearest to its centre.
+Vec2 image_of(const GroovedSurface& surface, std::uint32_t element, int i, int j) {
+    const ResolvedPattern& pattern = surface.pattern();
+    if (pattern.wrap == Wrap::clamp) return {0, 0};
+    const Element& e = pattern.elements[element].element;
+    const Vec2 middle = lerp(e.p0, e.p2, 0.5);
+    const Vec2 centre{(i + 0.5) * pattern.size.x / surface.grid().cols, (j + 0.5) * pattern.size.y / surface.grid().rows};
+    return {pattern.size.x * std::floor((centre.x - middle.x) / pattern.size.x + 0.5),
+            pattern.size.y * std::floor((centre.y - middle.y) / pattern.size.y + 0.5)};
+}
+
+// A line's strip may pass the box by although its own box does not.
+bool strip_meets(const PreparedElement& e, Vec2 shift, const Box& box) {
+    if (!meet({e.box.low + shift, e.box.high + shift}, box)) return false;
+    if (e.kind != ElementKind::line) return true;
+    const Vec2 n = normal_of(e.tangent), centre = lerp(box.low, box.high, 0.5), half = (box.high - box.low) * 0.5;
+    return std::abs(dot(centre - e.p0 - shift, n)) <= e.reach + std::abs(n.x) * half.x + std::abs(n.y) * half.y;
+}
+
+template <typename Visit>
+void for_each_cell(const GroovedSurface& surface, const Box& box, const Visit& visit) {
+    const CellRange range = cells_of(surface, box);
+    const CellGrid& grid = surface.grid();
+    for (int j = range.low[1]; j <= range.high[1]; ++j)
+        for (int i = range.low[0]; i <= range.high[0]; ++i)
+            visit(i, j, static_cast<std::size_t>(wrapped(j, grid.rows)) * static_cast<std::size_t>(grid.cols) +
+                            static_cast<std::size_t>(wrapped(i, grid.cols)));
+}
+
+void bound_heights(const GroovedSurface& surface, Gathered& out) {
+    out.lowest = surface.top(), out.highest = -1e300;
+    for_each_cell(surface, out.domain, [&](int, int, std::size_t cell) {
+        out.lowest = std::min(out.lowest, surface.grid().lowest[cell]);
+        out.highest = std::max(out.highest, surface.grid().highest[cell]);
+    });
+    if (surface.pattern().wrap == Wrap::repeat) return;
+    out.lowest = std::min(out.lowest, surface.pattern().outer_level);
+    out.highest = std::max(out.highest, surface.pattern().outer_level);
+}
+
+void set_boxes(const GroovedSurface& surface, const Box& footprint, const Slopes& slopes, Gathered& out) {
+    out.seen = footprint;
+    sweep_box(out.seen, slopes.view * (surface.top() - out.lowest));
+    out.domain = out.seen;
+    if (slopes.lit) sweep_box(out.domain, slopes.light * (out.lowest - out.highest));
+}
+
+}  // namespace
+
+void gather_grooves(const GroovedSurface& surface, const Box& footprint, const Slopes& slopes, Gathered& out) {
+    out.lowest = surface.lowest(), out.highest = surface.top();
+    set_boxes(surface, footprint, slopes, out);
+    // What lies there may be less deep than the whole pattern.
+    bound_heights(surface, out);
+    set_boxes(surface, footprint, slopes, out);
+    out.instances.clear();
+    out.steps = false;
+    const auto& elements = surface.truth().prepared().elements;
+    for_each_cell(surface, out.domain, [&](int i, int j, std::size_t cell) {
+        out.steps = out.steps || (surface.grid().flags[cell] & BURIN_CELL_FLAG_STEP) != 0;
+        for (std::uint32_t k = surface.grid().first_ref[cell]; k < surface.grid().first_ref[cell + 1]; ++k) {
+            const std::uint32_t element = surface.grid().refs[k];
+            const Vec2 shift = image_of(surface, element, i, j);
+            if (strip_meets(elements[element], shift, out.domain)) out.instances.push_back({element, shift});
+        }
+    });
+    const auto key = [](const Instance& a) { return std::tuple(a.element, a.shift.x, a.shift.y); };
+    std::sort(out.instances.begin(), out.instances.end(), [&](const Instance& a, const Instance& b) { return key(a) < key(b); });
+    out.instances.erase(std::unique(out.instances.begin(), out.instances.end(), [&](const Instance& a, const Instance& b) { return key(a) == key(b); }),
+                        out.instances.end());
+}
+
+double ground_near(const GroovedSurface& surface, Vec2 p) {
+    const ResolvedPattern& pattern = surface.pattern();
+    const CellGrid& grid = surface.grid();
+    if (pattern.wrap == Wrap::clamp && (p.x < 0.0 || p.y < 0.0 || p.x > pattern.size.x || p.y > pattern.size.y)) return pattern.outer_level;
+    const CellRange at = cells_of(surface, {p, p});
+    const int i = at.low[0], j = at.low[1];
+    const std::size_t cell = static_cast<std::size_t>(wrapped(j, grid.rows)) * static_cast<std::size_t>(grid.cols) +
+                             static_cast<std::size_t>(wrapped(i, grid.cols));
+    if ((grid.flags[cell] & BURIN_CELL_FLAG_STEP) == 0) return grid.level[cell];
+    const Vec2 side{pattern.size.x / grid.cols, pattern.size.y / grid.rows}, place = cell_start(grid.start[cell]);
+    const Vec2 start{(i + 0.5 + place.x) * side.x, (j + 0.5 + place.y) * side.y}, way = p - start;
+    double level = grid.level[cell], last = 0.0;
+    for (std::uint32_t k = grid.first_ref[cell]; k < grid.first_ref[cell + 1]; ++k) {
+        const PreparedElement& e = surface.truth().prepared().elements[grid.refs[k]];
+        if (!e.step || dot(way, way) == 0.0) continue;
+        const Vec2 shift = image_of(surface, grid.refs[k], i, j);
+        double u[2];
+        const int count = truth::meet_line(e, start - shift, way, u);
+        for (int n = 0; n < count; ++n) {
+            const double s = dot(truth::point_on(e, u[n]) + shift - start, way) / dot(way, way);
+            if (s <= last || s > 1.0) continue;
+            last = s;
+            level = dot(way, normal_of(truth::tangent_on(e, u[n]))) > 0.0 ? e.right_level : e.left_level;
+        }
+    }
+    return level;
+}
+
+}  // namespace burin::reference

@@ -1,0 +1,325 @@
+#include "sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stations.hpp"
+#include "zones.hpp"
+
+namespace burin::reference {
+namespace {
+
+constexpr std::size_t kMostLines = 48;
+
+// Four corners of what is swept between two stations and two lines, and heights there:
+// 0 (a, low line), 1 (b, low), 2 (b, high), 3 (a, high); from x towards y.
+struct Quad {
+    Vec2 p[4];
+    double z[4];
+};
+
+struct Triangle {
+    Vec2 p[3];
+    double z[3];
+};
+
+Plane plane_through(Vec2 p0, double z0, Vec2 p1, double z1, Vec2 p2, double z2) {
+    const Vec2 u = p1 - p0, v = p2 - p0;
+    const double det = cross(u, v);
+    Plane plane;
+    plane.g = {((z1 - z0) * v.y - (z2 - z0) * u.y) / det, ((z2 - z0) * u.x - (z1 - z0) * v.x) / det};
+    plane.c = z0 - dot(plane.g, p0);
+    return plane;
+}
+
+Vec2 crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+    const double lean = cross(b - a, d - c);
+    return lean == 0.0 ? b : a + (b - a) * (cross(c - a, d - c) / lean);
+}
+
+// Convex corners of a quad, at most four; a bowtie loses the part that is turned over, where the ends cross. Fewer than three: nothing.
+int corners_of(const Quad& quad, double fine, int corner[4], Vec2& crossing, bool& crossed) {
+    const double low = cross(quad.p[1] - quad.p[0], quad.p[3] - quad.p[0]), high = cross(quad.p[2] - quad.p[3], quad.p[2] - quad.p[1]);
+    const double floor = fine * fine;
+    crossed = false;
+    if (low <= floor && high <= floor) return 0;
+    if (low > 0.0 && high > 0.0) {
+        for (int i = 0; i < 4; ++i) corner[i] = i;
+        return 4;
+    }
+    // A corner of no width is a triangle, one that is turned over is cut off.
+    if (low <= 0.0) {
+        crossed = low < -floor;
+        crossing = crossed ? crossing_of(quad.p[0], quad.p[3], quad.p[1], quad.p[2]) : quad.p[0];
+        corner[0] = 2, corner[1] = 3;
+    } else {
+        crossed = high < -floor;
+        crossing = crossed ? crossing_of(quad.p[0], quad.p[3], quad.p[1], quad.p[2]) : quad.p[3];
+        corner[0] = 0, corner[1] = 1;
+    }
+    return 3;
+}
+
+class Sweeper {
+  public:
+    Sweeper(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out)
+        : surface_(surface), gathered_(gathered), options_(options), out_(out) {}
+
+    void sweep(std::uint32_t index) {
+        const Instance& instance = gathered_.instances[index];
+        const PreparedElement& e = surface_.truth().prepared().elements[instance.element];
+        instance_ = index;
+        element_ = &e;
+        profile_ = &surface_.profiles()[e.profile];
+        StationOptions options{gathered_.domain, options_.tolerance, 0.0};
+        for (const ProfileFacet& facet : profile_->facets)
+            options.deep = std::max({options.deep, std::abs(facet.h0), std::abs(facet.h1)});
+        place_stations(e, surface_.pattern().elements[instance.element], instance.shift, options, stations_);
+        for (std::size_t k = 0; k + 1 < stations_.list.size(); ++k) sweep_between(stations_.list[k], stations_.list[k + 1]);
+        for (int end = 0; end < 2; ++end) wall_ends(end);
+    }
+
+  private:
+    double height(const Station& station, double h) const { return element_->level + station.height * h; }
+    double ground(std::uint32_t line) const { return profile_->lines[line] < 0.0 ? element_->left_level : element_->right_level; }
+    // Of what lies between two lines.
+    double ground(std::uint32_t from, std::uint32_t to) const {
+        return profile_->lines[from] + profile_->lines[to] < 0.0 ? element_->left_level : element_->right_level;
+    }
+
+    void sweep_between(const Station& a, const Station& b) {
+        const std::size_t count = std::min(profile_->lines.size(), kMostLines);
+        Box box;
+        for (std::size_t i = 0; i < count; ++i) {
+            at_a_[i] = a.at(profile_->lines[i] * a.width);
+            at_b_[i] = b.at(profile_->lines[i] * b.width);
+            include(box, at_a_[i]);
+            include(box, at_b_[i]);
+        }
+        if (!meet(box, gathered_.domain)) return;
+        for (const Slab& slab : profile_->slabs) sweep_slab(a, b, slab);
+        for (const ProfileFacet& facet : profile_->facets) sweep_facet(a, b, facet);
+        wall_sides(a, b);
+    }
+
+    Quad quad(const Station& a, const Station& b, std::uint32_t from, std::uint32_t to, double h0, double h1) const {
+        return {{at_a_[from], at_b_[from], at_b_[to], at_a_[to]}, {height(a, h0), height(b, h0), height(b, h1), height(a, h1)}};
+    }
+
+    // Calls use(count, points, plane) for the flat parts of a quad.
+    template <typename Use>
+    void for_each_part(const Quad& q, const Use& use) {
+        int corner[4];
+        Vec2 crossing;
+        bool crossed;
+        const int count = corners_of(q, out_.fine, corner, crossing, crossed);
+        if (count == 0) return;
+        if (count == 3) {
+            const int i = corner[0], k = corner[1];
+            // The line along which the triangle tapers has a height at the crossing by the quad's own plane.
+            const Vec2 p[3] = {q.p[i], q.p[k], crossing};
+            const int other = i == 0 ? 3 : 1;
+            const double z = crossed ? plane_through(q.p[i], q.z[i], q.p[k], q.z[k], q.p[other], q.z[other]).at(crossing) : q.z[i == 0 ? 3 : 0];
+            if (std::abs(cross(p[1] - p[0], p[2] - p[0])) > out_.fine * out_.fine) use(3, p, plane_through(p[0], q.z[i], p[1], q.z[k], p[2], z));
+            return;
+        }
+        const Plane whole = plane_through(q.p[0], q.z[0], q.p[1], q.z[1], q.p[3], q.z[3]);
+        if (std::abs(whole.at(q.p[2]) - q.z[2]) <= out_.fine) return use(4, q.p, whole);
+        const int parts[2][3] = {{0, 1, 2}, {0, 2, 3}};
+        for (const auto& part : parts) {
+            const Vec2 p[3] = {q.p[part[0]], q.p[part[1]], q.p[part[2]]};
+            if (cross(p[1] - p[0], p[2] - p[0]) <= out_.fine * out_.fine) continue;
+            use(3, p, plane_through(p[0], q.z[part[0]], p[1], q.z[part[1]], p[2], q.z[part[2]]));
+        }
+    }
+
+    Brush brush_over(int count, const Vec2* p, bool cut) {
+        Brush brush;
+        brush.instance = instance_;
+        brush.cut = cut;
+        const std::uint32_t from = out_.plan.mark();
+        for (int i = 0; i < count; ++i) {
+            out_.plan.add(p[i]);
+            include(brush.box, p[i]);
+        }
+        brush.polygon = out_.plan.close(from);
+        return brush;
+    }
+
+    void sweep_slab(const Station& a, const Station& b, const Slab& slab) {
+        const double level = ground(slab.line, slab.line + 1);
+        // What is bounded on both sides is divided alike for both.
+        const double* bound = slab.has_top && !slab.has_bottom ? slab.top : slab.bottom;
+        const Quad q = quad(a, b, slab.line, slab.line + 1, bound[0], bound[1]);
+        const Quad other = quad(a, b, slab.line, slab.line + 1, slab.top[0], slab.top[1]);
+        if (!slab.cut && *std::max_element(other.z, other.z + 4) <= level + out_.fine) return;  // nothing rises above the ground
+        for_each_part(q, [&](int count, const Vec2* p, const Plane& plane) {
+            Brush brush = brush_over(count, p, slab.cut);
+            brush.has_bottom = slab.has_bottom, brush.has_top = slab.has_top;
+            (slab.has_bottom ? brush.bottom : brush.top) = plane;
+            if (slab.has_bottom && slab.has_top) brush.top = plane_through(other.p[0], other.z[0], other.p[1], other.z[1], other.p[3], other.z[3]);
+            put_brush(brush, level);
+        });
+    }
+
+    void put_brush(const Brush& brush, double level) {
+        if (!meet(brush.box, gathered_.domain)) return;
+        limit_to_zones(out_, brush, level);
+    }
+
+    Face face_of(FaceKind kind, std::uint32_t facet, double level) const {
+        Face face;
+        face.kind = kind;
+        face.instance = instance_;
+        face.facet = facet;
+        face.level = level;
+        return face;
+    }
+
+    // A facet bounds what is added; an internal one also what is cut.
+    void put_facet(Face face, int count, const Vec3* p, Vec3 normal, const ProfileFacet& facet) {
+        const std::uint32_t from = out_.points.mark();
+        for (int i = 0; i < count; ++i) {
+            out_.points.add(p[i]);
+            include(face.box, plan(p[i]));
+        }
+        face.polygon = out_.points.close(from);
+        face.normal = normal;
+        if (!meet(face.box, gathered_.domain)) return;
+        double low = 1e300, high = -1e300;
+        for (int i = 0; i < count; ++i) {
+            low = std::min(low, p[i].z);
+            high = std::max(high, p[i].z);
+        }
+        face.kind = FaceKind::add;
+        if (high > face.level + out_.fine) limit_to_zones(out_, face);
+        face.kind = FaceKind::cut;
+        if (facet.internal) limit_to_zones(out_, face);
+    }
+
+    void sweep_facet(const Station& a, const Station& b, const ProfileFacet& facet) {
+        const Face face = face_of(FaceKind::add, facet.facet, ground(facet.from, facet.to));
+        const Quad q = quad(a, b, facet.from, facet.to, facet.h0, facet.h1);
+        if (facet.from == facet.to) return upright_facet(face, q, facet);
+        for_each_part(q, [&](int count, const Vec2* p, const Plane& plane) {
+            Vec3 corners[4];
+            for (int i = 0; i < count; ++i) corners[i] = {p[i].x, p[i].y, plane.at(p[i])};
+            const Vec3 up = unit(Vec3{-plane.g.x, -plane.g.y, 1.0});
+            put_facet(face, count, corners, facet.rightward ? up : up * -1.0, facet);
+        });
+    }
+
+    void upright_facet(const Face& face, const Quad& q, const ProfileFacet& facet) {
+        if (element_->step && profile_->lines[facet.from] == 0.0) return;  // the ground's wall stands there
+        const Vec2 along = q.p[1] - q.p[0];
+        if (length(along) <= out_.fine) return;
+        const Vec2 n = normal_of(unit(along));
+        const Vec3 corners[4] = {{q.p[0].x, q.p[0].y, q.z[0]}, {q.p[1].x, q.p[1].y, q.z[1]}, {q.p[2].x, q.p[2].y, q.z[2]}, {q.p[3].x, q.p[3].y, q.z[3]}};
+        // The solid lies to the right of the way from the first point to the last: beyond it where the facet falls, before it
+        // where it rises.
+        const double sign = facet.h1 < facet.h0 ? 1.0 : -1.0;
+        put_facet(face, 4, corners, {n.x * sign, n.y * sign, 0.0}, facet);
+    }
+
+    // A wall stands a little outside of what it bounds, so that it is judged by what lies there.
+    void put_wall(FaceKind kind, Vec2 p, double zp, Vec2 q, double zq, Vec2 outward, double level) {
+        if (length(q - p) <= out_.fine) return;
+        const double edge = kind == FaceKind::cut ? std::max({gathered_.highest, zp, zq}) : level;
+        const Vec2 off = outward * (8.0 * out_.fine);
+        Face face = face_of(kind, kWall, level);
+        face.wall = true;
+        const std::uint32_t from = out_.points.mark();
+        for (const Vec3 corner : {Vec3{p.x, p.y, zp}, Vec3{q.x, q.y, zq}, Vec3{q.x, q.y, edge}, Vec3{p.x, p.y, edge}}) {
+            out_.points.add(corner + Vec3{off.x, off.y, 0.0});
+            include(face.box, plan(corner));
+        }
+        face.polygon = out_.points.close(from);
+        const double sign = kind == FaceKind::cut ? -1.0 : 1.0;
+        face.normal = {outward.x * sign, outward.y * sign, 0.0};
+        if (meet(face.box, gathered_.domain)) limit_to_zones(out_, face);
+    }
+
+    void wall_of_facet(const ProfileFacet& facet, Vec2 p, double zp, Vec2 q, double zq, Vec2 outward) {
+        if (length(q - p) <= out_.fine) return;
+        const double level = ground(facet.from, facet.to);
+        if (facet.internal) put_wall(FaceKind::cut, p, zp, q, zq, outward, level);
+        if (std::max(zp, zq) > level + out_.fine) put_wall(FaceKind::add, p, zp, q, zq, outward, level);
+    }
+
+    // Where an end is open, across the path; and between the halves of a cap.
+    void wall_ends(int end) {
+        const OpenEnd& open = stations_.ends[end];
+        const Station& station = stations_.list[open.station];
+        const Vec2 outward = element_->ends[end].outward;
+        for (const ProfileFacet& facet : profile_->facets) {
+            const int side = profile_->lines[facet.from] + profile_->lines[facet.to] < 0.0 ? 0 : 1;
+            if (!open.open[side] || facet.from == facet.to) continue;
+            const Vec2 p = station.at(profile_->lines[facet.from] * station.width), q = station.at(profile_->lines[facet.to] * station.width);
+            Vec2 out = normal_of(unit(q - p));
+            if (dot(out, outward) < 0.0) out = -out;
+            wall_of_facet(facet, p, height(station, facet.h0), q, height(station, facet.h1), out);
+        }
+        if (stations_.capped[end]) wall_cap(station);
+    }
+
+    void wall_cap(const Station& station) {
+        Station apex = station;
+        apex.kind = Station::Kind::apex;
+        for (const ProfileFacet& facet : profile_->facets) {
+            if (facet.from == facet.to) continue;
+            const double b0 = profile_->lines[facet.from] * station.width, b1 = profile_->lines[facet.to] * station.width;
+            // The other half lies to the right of the left one.
+            wall_of_facet(facet, apex.at(b0), height(station, facet.h0), apex.at(b1), height(station, facet.h1),
+                          b0 + b1 < 0.0 ? station.n : -station.n);
+        }
+    }
+
+    // Where a run of internal facets ends a cut goes straight up; where the profile ends above the ground something stands.
+    void wall_sides(const Station& a, const Station& b) {
+        const auto& facets = profile_->facets;
+        for (std::size_t k = 0; k < facets.size(); ++k)
+            for (const bool first : {true, false}) {
+                const bool ends = first ? k == 0 : k + 1 == facets.size();
+                if (!ends && (!facets[k].internal || facets[first ? k - 1 : k + 1].internal)) continue;
+                wall_side(a, b, facets[k], first == facets[k].rightward, ends);
+            }
+    }
+
+    // At the smaller or the larger offset of the facet.
+    void wall_side(const Station& a, const Station& b, const ProfileFacet& facet, bool low, bool ends) {
+        const std::uint32_t line = low ? facet.from : facet.to;
+        const double h = low ? facet.h0 : facet.h1, za = height(a, h), zb = height(b, h), level = ground(facet.from, facet.to);
+        Vec2 outward = normal_of(unit(at_b_[line] - at_a_[line]));
+        if (low) outward = -outward;
+        if (facet.internal && std::min(za, zb) < gathered_.highest - out_.fine) put_wall(FaceKind::cut, at_a_[line], za, at_b_[line], zb, outward, level);
+        if (ends && std::max(za, zb) > level + out_.fine) put_wall(FaceKind::add, at_a_[line], za, at_b_[line], zb, outward, level);
+    }
+
+    const GroovedSurface& surface_;
+    const Gathered& gathered_;
+    const SweepOptions& options_;
+    LocalGeometry& out_;
+    std::uint32_t instance_ = 0;
+    const PreparedElement* element_ = nullptr;
+    const SlabbedProfile* profile_ = nullptr;
+    Stations stations_;
+    Vec2 at_a_[kMostLines], at_b_[kMostLines];
+};
+
+}  // namespace
+
+void sweep_grooves(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
+    out.points.clear();
+    out.plan.clear();
+    out.zones.clear();
+    out.brushes.clear();
+    out.faces.clear();
+    const Vec2 extent = gathered.domain.high - gathered.domain.low;
+    out.fine = 1e-9 * std::max({extent.x, extent.y, surface.pattern().depth});
+    out.points.thin = out.plan.thin = 0.25 * out.fine;
+    divide_zones(surface, gathered, options, out);
+    Sweeper sweeper(surface, gathered, options, out);
+    for (std::uint32_t i = 0; i < gathered.instances.size(); ++i) sweeper.sweep(i);
+}
+
+}  // namespace burin::reference

@@ -1,0 +1,219 @@
+#include "zones.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stations.hpp"
+
+namespace burin::reference {
+namespace {
+
+Polygon polygon_of(LocalGeometry& out, const Box& box) {
+    const std::uint32_t from = out.plan.mark();
+    for (const Vec2 corner : {box.low, Vec2{box.high.x, box.low.y}, box.high, Vec2{box.low.x, box.high.y}}) out.plan.add(corner);
+    return out.plan.close(from);
+}
+
+Polygon overlap(Polygons<Vec2>& pool, Polygon p, Polygon q) {
+    for (std::uint32_t i = 0; p && i < q.count; ++i) p = pool.clip(p, edge_of(pool, q, i));
+    return is_solid(pool, p) ? p : Polygon{};
+}
+
+// Whether the way from a to b runs through the inside of the polygon.
+bool runs_through(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b) {
+    double low = 0.0, high = 1.0;
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        const HalfPlane edge = edge_of(out.plan, p, i);
+        const double at_a = beyond(edge, a) + out.fine, at_b = beyond(edge, b) + out.fine;
+        if (at_a >= 0.0 && at_b >= 0.0) return false;
+        if (at_a > 0.0) low = std::max(low, at_a / (at_a - at_b));
+        if (at_b > 0.0) high = std::min(high, at_a / (at_a - at_b));
+    }
+    return low < high;
+}
+
+void split_zones(LocalGeometry& out, const HalfPlane& line, Vec2 a, Vec2 b) {
+    const std::size_t count = out.zones.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!runs_through(out, out.zones[i].polygon, a, b)) continue;
+        Polygon inside, outside;
+        out.plan.split(out.zones[i].polygon, line, inside, outside);
+        if (!inside || !outside) continue;
+        out.zones[i].polygon = inside;
+        out.zones.push_back({outside, 0.0, {}, false});
+    }
+}
+
+// Calls visit(a, b, element, instance) for every straight piece of a step's path line in the domain.
+template <typename Visit>
+void for_each_chord(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, const Visit& visit) {
+    Stations stations;
+    for (std::uint32_t i = 0; i < gathered.instances.size(); ++i) {
+        const Instance& instance = gathered.instances[i];
+        const PreparedElement& e = surface.truth().prepared().elements[instance.element];
+        if (!e.step) continue;
+        place_stations(e, surface.pattern().elements[instance.element], instance.shift, {gathered.domain, options.tolerance, 0.0}, stations);
+        for (std::size_t k = 0; k + 1 < stations.list.size(); ++k) {
+            const Vec2 a = stations.list[k].origin, b = stations.list[k + 1].origin;
+            if (length(b - a) > 0.0) visit(a, b, e, i);
+        }
+    }
+}
+
+void split_at_borders(const GroovedSurface& surface, LocalGeometry& out) {
+    const Vec2 size = surface.pattern().size;
+    for (const HalfPlane& border : {HalfPlane{{-1, 0}, 0}, HalfPlane{{0, -1}, 0}, HalfPlane{{1, 0}, size.x}, HalfPlane{{0, 1}, size.y}}) {
+        const std::size_t count = out.zones.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            Polygon inside, outside;
+            out.plan.split(out.zones[i].polygon, border, inside, outside);
+            if (!inside || !outside) continue;
+            out.zones[i].polygon = inside;
+            out.zones.push_back({outside, 0.0, {}, false});
+        }
+    }
+}
+
+void put_ground(const Zone& zone, LocalGeometry& out) {
+    Face face;
+    face.facet = kGround;
+    face.instance = kGround;
+    face.level = zone.level;
+    face.normal = {0, 0, 1};
+    face.box = zone.box;
+    const std::uint32_t from = out.points.mark();
+    for (std::uint32_t i = 0; i < zone.polygon.count; ++i) {
+        const Vec2 p = out.plan(zone.polygon, i);
+        out.points.add({p.x, p.y, zone.level});
+    }
+    face.polygon = out.points.close(from);
+    out.faces.push_back(face);
+}
+
+// The ground's own step where the profile has an upright facet, or none at all, at b = 0.
+void put_step_wall(const GroovedSurface& surface, Vec2 a, Vec2 b, const PreparedElement& e, std::uint32_t instance, LocalGeometry& out) {
+    const double low = std::min(e.left_level, e.right_level), high = std::max(e.left_level, e.right_level);
+    if (high - low <= out.fine) return;
+    Face face;
+    face.wall = true;
+    face.instance = instance;
+    face.facet = kWall;
+    const SlabbedProfile& profile = surface.profiles()[e.profile];
+    for (const ProfileFacet& facet : profile.facets)
+        if (facet.from == facet.to && profile.lines[facet.from] == 0.0) face.facet = facet.facet;
+    face.level = low;
+    const Vec2 n = normal_of(unit(b - a)) * (e.left_level > e.right_level ? 1.0 : -1.0);
+    face.normal = {n.x, n.y, 0.0};
+    const std::uint32_t from = out.points.mark();
+    for (const Vec3 corner : {Vec3{a.x, a.y, low}, Vec3{b.x, b.y, low}, Vec3{b.x, b.y, high}, Vec3{a.x, a.y, high}}) {
+        out.points.add(corner);
+        include(face.box, plan(corner));
+    }
+    face.polygon = out.points.close(from);
+    out.faces.push_back(face);
+}
+
+// Whether what belongs to ground of that level acts in the zone.
+bool acts_in(const LocalGeometry& out, const Zone& zone, double level) {
+    return !zone.outside && std::abs(zone.level - level) <= 16.0 * out.fine;
+}
+
+}  // namespace
+
+void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
+    out.zones.push_back({polygon_of(out, gathered.domain), 0.0, {}, false});
+    if (surface.pattern().wrap == Wrap::clamp) split_at_borders(surface, out);
+    if (gathered.steps)
+        for_each_chord(surface, gathered, options, [&](Vec2 a, Vec2 b, const PreparedElement&, std::uint32_t) {
+            const Vec2 n = normal_of(unit(b - a));
+            split_zones(out, {n, dot(n, a)}, a, b);
+        });
+    for (Zone& zone : out.zones) {
+        const Vec2 middle = middle_of(out.plan, zone.polygon), size = surface.pattern().size;
+        zone.level = ground_near(surface, middle);
+        zone.outside = surface.pattern().wrap == Wrap::clamp && (middle.x < 0.0 || middle.y < 0.0 || middle.x > size.x || middle.y > size.y);
+        zone.box = box_of(out.plan, zone.polygon);
+        put_ground(zone, out);
+    }
+    if (gathered.steps)
+        for_each_chord(surface, gathered, options, [&](Vec2 a, Vec2 b, const PreparedElement& e, std::uint32_t instance) {
+            put_step_wall(surface, a, b, e, instance, out);
+        });
+}
+
+void limit_to_zones(LocalGeometry& out, const Brush& brush, double level) {
+    const bool whole = std::all_of(out.zones.begin(), out.zones.end(), [&](const Zone& zone) {
+        return acts_in(out, zone, level) || !meet(zone.box, brush.box) || !overlap(out.plan, brush.polygon, zone.polygon);
+    });
+    if (whole) return out.brushes.push_back(brush);
+    for (const Zone& zone : out.zones) {
+        if (!acts_in(out, zone, level) || !meet(zone.box, brush.box)) continue;
+        Brush part = brush;
+        part.polygon = overlap(out.plan, brush.polygon, zone.polygon);
+        if (!part.polygon) continue;
+        part.box = box_of(out.plan, part.polygon);
+        out.brushes.push_back(part);
+    }
+}
+
+namespace {
+
+Polygon inside_zone(LocalGeometry& out, Polygon p, const Zone& zone) {
+    for (std::uint32_t i = 0; p && i < zone.polygon.count; ++i) {
+        const HalfPlane edge = edge_of(out.plan, zone.polygon, i);
+        p = out.points.clip(p, HalfSpace{{edge.n.x, edge.n.y, 0.0}, edge.d});
+    }
+    return p;
+}
+
+// The level of the zone that p lies in.
+double ground_beside(const LocalGeometry& out, Vec2 p, double otherwise) {
+    for (const Zone& zone : out.zones) {
+        bool inside = true;
+        for (std::uint32_t i = 0; inside && i < zone.polygon.count; ++i) inside = beyond(edge_of(out.plan, zone.polygon, i), p) <= 0.0;
+        if (inside) return zone.level;
+    }
+    return otherwise;
+}
+
+// What a groove that stops at a step, or at the border of the map, leaves open: above each edge on the zone's border.
+void wall_border(LocalGeometry& out, const Face& face, const Zone& zone) {
+    if (face.wall || face.kind != FaceKind::cut) return;
+    double highest = face.level;
+    for (const Zone& other : out.zones) highest = std::max(highest, other.level);
+    for (std::uint32_t k = 0; k < zone.polygon.count; ++k) {
+        const HalfPlane edge = edge_of(out.plan, zone.polygon, k);
+        for (std::uint32_t i = 0; i < face.polygon.count; ++i) {
+            const Vec3 a = out.points(face.polygon, i), b = out.points(face.polygon, i + 1 < face.polygon.count ? i + 1 : 0);
+            if (std::abs(beyond(edge, plan(a))) > out.fine || std::abs(beyond(edge, plan(b))) > out.fine) continue;
+            if (length(plan(b) - plan(a)) <= out.fine) continue;
+            Face wall = face;
+            wall.wall = true;
+            wall.facet = kWall;
+            wall.normal = {-edge.n.x, -edge.n.y, 0.0};
+            const Vec3 off{edge.n.x * 8.0 * out.fine, edge.n.y * 8.0 * out.fine, 0.0};
+            const std::uint32_t from = out.points.mark();
+            for (const Vec3 corner : {a, b, Vec3{b.x, b.y, highest}, Vec3{a.x, a.y, highest}}) out.points.add(corner + off);
+            wall.polygon = out.points.close(from);
+            // What is solid beside it is another zone's affair.
+            wall.level = ground_beside(out, plan((a + b) * 0.5) + edge.n * (64.0 * out.fine), face.level);
+            out.faces.push_back(wall);
+        }
+    }
+}
+
+}  // namespace
+
+void limit_to_zones(LocalGeometry& out, const Face& face) {
+    if (out.zones.size() == 1 && !out.zones[0].outside) return out.faces.push_back(face);
+    for (const Zone& zone : out.zones) {
+        if (!acts_in(out, zone, face.level) || !meet(zone.box, face.box)) continue;
+        Face part = face;
+        part.polygon = inside_zone(out, face.polygon, zone);
+        if (!part.polygon) continue;
+        out.faces.push_back(part);
+        wall_border(out, part, zone);
+    }
+}
+
+}  // namespace burin::reference

@@ -1,0 +1,16 @@
+// Parts of the plan with one level of ground, and what of an element's pieces lies in those that it acts in.
+#pragma once
+
+#include "sweep.hpp"
+
+namespace burin::reference {
+
+// Cuts the domain along the step paths and, of a clamped map, along its borders; puts the ground's faces and its walls.
+// Sets out.zones. Cost: zones times pieces of steps.
+void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out);
+
+// Adds the brush or face, or what of it lies over ground of its level. Faces end up with the walls that they need there.
+void limit_to_zones(LocalGeometry& out, const Brush& brush, double level);
+void limit_to_zones(LocalGeometry& out, const Face& face);
+
+}  // namespace burin::reference

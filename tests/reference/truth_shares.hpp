@@ -1,0 +1,46 @@
+// Shares of a footprint by rays of the truth, to hold against those of the renderer; and patterns of the kinds that [2008]
+// figure 5 tells apart.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <burin/evaluate.hpp>
+#include <reference/areas.hpp>
+
+namespace burin::testing {
+
+// By element and facet: what is seen, and what of it is lit.
+struct FacetShare {
+    double seen = 0.0, lit = 0.0;
+};
+using Shares = std::map<std::pair<std::uint32_t, std::uint32_t>, FacetShare>;
+
+// `side` x `side` rays, one in each cell of a grid over the footprint's box that its polygon holds.
+Shares shares_by_truth(const Truth& truth, double top, double depth, const reference::Footprint& footprint, const reference::Slopes& slopes, int side,
+                       std::uint64_t seed);
+Shares gather_shares(const std::vector<reference::Share>& shares);
+
+// Part of the footprint that the two give to different facets, seen and lit.
+struct ShareError {
+    double seen = 0.0, lit = 0.0;
+};
+ShareError compare_shares(const Shares& a, const Shares& b);
+
+enum class GrooveCase { isolated, parallel, crossing, intersected_end, isolated_end, corner, protruding, two_at_once };
+inline constexpr int kGrooveCases = 8;
+const char* name_of(GrooveCase which);
+
+// A pattern of some ten centimetres with the case near its middle, (0.05, 0.05); features about 4 mm wide, 1 to 3 mm deep.
+ResolvedPattern make_case(GrooveCase which, std::uint64_t seed);
+
+// A footprint near the middle, from a tenth of a groove to several grooves large, seen and lit from 5 to 90 degrees.
+struct Situation {
+    reference::Footprint footprint;
+    reference::Slopes slopes;
+};
+Situation make_situation(std::uint64_t seed);
+
+}  // namespace burin::testing
