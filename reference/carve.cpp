@@ -38,7 +38,7 @@ class Carver {
         for (std::size_t b = 0; b < geometry_.brushes.size() && !out_.kept.empty(); ++b) {
             const Brush& brush = geometry_.brushes[b];
             if (!meet(brush.box, face.box) || (face.kind == FaceKind::cut && !brush.cut) || spares(face, brush)) continue;
-            remove(b, tie(face, brush), face.kind == FaceKind::ground && face.wall ? 8.0 * geometry_.fine : 0.0);
+            remove(face, b, tie(face, brush));
         }
         for (const Polygon p : out_.kept) out_.pieces.push_back({index, p});
     }
@@ -75,25 +75,33 @@ class Carver {
             const Brush& brush = geometry_.brushes[b];
             if (brush.cut || !meet(brush.box, face.box) || (brush.instance == face.instance && !face.wall)) continue;
             out_.next.clear();
-            for (const Polygon p : out_.solid) keep(subtract(p, b, -geometry_.fine, 0.0));
+            for (const Polygon p : out_.solid) keep(subtract(face, p, b, -geometry_.fine));
             out_.solid.swap(out_.next);
         }
     }
 
-    void remove(std::size_t brush, double grow, double widen) {
+    void remove(const Face& face, std::size_t brush, double grow) {
         out_.next.clear();
-        for (const Polygon p : out_.kept) subtract(p, brush, grow, widen);
+        for (const Polygon p : out_.kept) subtract(face, p, brush, grow);
         out_.kept.swap(out_.next);
     }
 
-    // Adds what lies outside of the brush to out_.next; returns what lies inside.
-    Polygon subtract(Polygon p, std::size_t index, double grow, double widen) {
+    // Walls stand on borders of brushes. What is added beside one hides it where that lies before it; what is cut takes it where that
+    // lies behind it, and so does all else with the wall of a cut.
+    Vec2 judged_at(const Face& face, const Brush& brush) const {
+        if (!face.wall) return {0, 0};
+        return plan(face.normal) * (brush.cut || face.kind == FaceKind::cut ? -8.0 * geometry_.fine : 8.0 * geometry_.fine);
+    }
+
+    // Adds what lies outside of the brush to out_.next; returns what lies inside. `grow`: by how much its top and bottom are moved outwards.
+    Polygon subtract(const Face& face, Polygon p, std::size_t index, double grow) {
         const Brush& brush = geometry_.brushes[index];
         const std::uint32_t first = out_.first_half[index], last = out_.first_half[index + 1];
         const std::uint32_t sides = last - brush.polygon.count;
+        const Vec2 moved = judged_at(face, brush);
         const auto half_of = [&](std::uint32_t k) {
             HalfSpace half = out_.halves[k];
-            half.d += k < sides ? grow : widen;
+            half.d += k < sides ? grow : -dot(plan(half.n), moved);
             return half;
         };
         for (std::uint32_t k = first; k < last; ++k)

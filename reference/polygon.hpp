@@ -152,7 +152,7 @@ inline bool is_solid(const Polygons<Vec2>& pool, Polygon p) {
 inline HalfPlane edge_of(const Polygons<Vec2>& pool, Polygon p, std::uint32_t i) {
     const Vec2 a = pool(p, i), along = pool(p, i + 1 < p.count ? i + 1 : 0) - a;
     const double l = std::sqrt(dot(along, along));
-    if (l <= pool.thin) return {};
+    if (l <= pool.thin) return {{0, 0}, 1e300};
     const Vec2 n = normal_of(along) * (-1.0 / l);
     return {n, dot(n, a)};
 }

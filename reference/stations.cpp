@@ -106,14 +106,23 @@ struct Divider {
         const Vec2 margin{e.reach + bulge, e.reach + bulge};
         return !meet({box.low - margin, box.high + margin}, options.near);
     }
+    // How far the four corners of a facet from the path to `offset` are from flat, by half of what a plane through three misses.
+    double twist(const Station& a, const Station& b, double offset) const {
+        const Vec2 p = a.at(0.0), u = b.at(0.0) - p, v = a.at(offset * a.width) - p, far = b.at(offset * b.width) - p;
+        const double det = cross(u, v);
+        if (std::abs(det) < 1e-300) return 0.0;
+        // The path's line lies deepest, the other on the ground.
+        const double along = cross(far, v) / det, aside = cross(u, far) / det;
+        return 0.5 * options.deep * std::abs(a.height + along * (b.height - a.height) - aside * a.height);
+    }
     // Adds what lies between a and b, and b itself.
     void divide(const Station& a, const Station& b, int depth) {
-        const bool even = e.kind == ElementKind::line && e.function == nullptr;
+        const bool even = e.kind == ElementKind::line && e.function == nullptr && !e.scaled;
         if (depth < 12 && !even && !is_far(a, b)) {
             const Station middle = across(e, shift, 0.5 * (a.u + b.u));
             const double rise = std::abs(middle.height - 0.5 * (a.height + b.height)) * options.deep;
             const bool coarse = depth < 2 && e.function != nullptr;  // a wave may be met in its nodes
-            if (coarse || rise > options.tolerance || off_chord(a, b, middle, low) > options.tolerance ||
+            if (coarse || rise > options.tolerance || twist(a, b, low) > options.tolerance || twist(a, b, high) > options.tolerance || off_chord(a, b, middle, low) > options.tolerance ||
                 off_chord(a, b, middle, high) > options.tolerance) {
                 divide(a, middle, depth + 1);
                 divide(middle, b, depth + 1);

@@ -18,11 +18,6 @@ struct Quad {
     double z[4];
 };
 
-struct Triangle {
-    Vec2 p[3];
-    double z[3];
-};
-
 Plane plane_through(Vec2 p0, double z0, Vec2 p1, double z1, Vec2 p2, double z2) {
     const Vec2 u = p1 - p0, v = p2 - p0;
     const double det = cross(u, v);
@@ -37,27 +32,15 @@ Vec2 crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     return lean == 0.0 ? b : a + (b - a) * (cross(c - a, d - c) / lean);
 }
 
-// Convex corners of a quad, at most four; a bowtie loses the part that is turned over, where the ends cross. Fewer than three: nothing.
-int corners_of(const Quad& quad, double fine, int corner[4], Vec2& crossing, bool& crossed) {
-    const double low = cross(quad.p[1] - quad.p[0], quad.p[3] - quad.p[0]), high = cross(quad.p[2] - quad.p[3], quad.p[2] - quad.p[1]);
-    const double floor = fine * fine;
-    crossed = false;
-    if (low <= floor && high <= floor) return 0;
-    if (low > 0.0 && high > 0.0) {
-        for (int i = 0; i < 4; ++i) corner[i] = i;
-        return 4;
-    }
-    // A corner of no width is a triangle, one that is turned over is cut off.
-    if (low <= 0.0) {
-        crossed = low < -floor;
-        crossing = crossed ? crossing_of(quad.p[0], quad.p[3], quad.p[1], quad.p[2]) : quad.p[0];
-        corner[0] = 2, corner[1] = 3;
-    } else {
-        crossed = high < -floor;
-        crossing = crossed ? crossing_of(quad.p[0], quad.p[3], quad.p[1], quad.p[2]) : quad.p[3];
-        corner[0] = 0, corner[1] = 1;
-    }
-    return 3;
+// Twice the area of the triangle at corner i.
+double corner_area(const Quad& q, int i) { return cross(q.p[(i + 1) & 3] - q.p[i], q.p[(i + 3) & 3] - q.p[i]); }
+
+Plane plane_of(const Quad& q) {
+    int widest = 0;
+    for (int i = 1; i < 4; ++i)
+        if (corner_area(q, i) > corner_area(q, widest)) widest = i;
+    const int before = (widest + 3) & 3, after = (widest + 1) & 3;
+    return plane_through(q.p[widest], q.z[widest], q.p[after], q.z[after], q.p[before], q.z[before]);
 }
 
 class Sweeper {
@@ -109,28 +92,33 @@ class Sweeper {
     // Calls use(count, points, plane) for the flat parts of a quad.
     template <typename Use>
     void for_each_part(const Quad& q, const Use& use) {
-        int corner[4];
-        Vec2 crossing;
-        bool crossed;
-        const int count = corners_of(q, out_.fine, corner, crossing, crossed);
-        if (count == 0) return;
-        if (count == 3) {
-            const int i = corner[0], k = corner[1];
-            // The line along which the triangle tapers has a height at the crossing by the quad's own plane.
-            const Vec2 p[3] = {q.p[i], q.p[k], crossing};
-            const int other = i == 0 ? 3 : 1;
-            const double z = crossed ? plane_through(q.p[i], q.z[i], q.p[k], q.z[k], q.p[other], q.z[other]).at(crossing) : q.z[i == 0 ? 3 : 0];
-            if (std::abs(cross(p[1] - p[0], p[2] - p[0])) > out_.fine * out_.fine) use(3, p, plane_through(p[0], q.z[i], p[1], q.z[k], p[2], z));
-            return;
+        const double none = out_.fine * out_.fine;
+        double area[4];
+        for (int i = 0; i < 4; ++i) area[i] = corner_area(q, i);
+        const int widest = static_cast<int>(std::max_element(area, area + 4) - area);
+        if (area[widest] <= none) return;
+        if (*std::min_element(area, area + 4) < -none) return use_untwisted(q, area, use);
+        const int far = (widest + 2) & 3;
+        const Plane whole = plane_of(q);
+        if (std::abs(whole.at(q.p[far]) - q.z[far]) <= out_.fine) return use(4, q.p, whole);
+        for (const int first : {0, 2}) {
+            const int i[3] = {first, first + 1, (first + 2) & 3};
+            const Vec2 p[3] = {q.p[i[0]], q.p[i[1]], q.p[i[2]]};
+            if (cross(p[1] - p[0], p[2] - p[0]) > none) use(3, p, plane_through(p[0], q.z[i[0]], p[1], q.z[i[1]], p[2], q.z[i[2]]));
         }
-        const Plane whole = plane_through(q.p[0], q.z[0], q.p[1], q.z[1], q.p[3], q.z[3]);
-        if (std::abs(whole.at(q.p[2]) - q.z[2]) <= out_.fine) return use(4, q.p, whole);
-        const int parts[2][3] = {{0, 1, 2}, {0, 2, 3}};
-        for (const auto& part : parts) {
-            const Vec2 p[3] = {q.p[part[0]], q.p[part[1]], q.p[part[2]]};
-            if (cross(p[1] - p[0], p[2] - p[0]) <= out_.fine * out_.fine) continue;
-            use(3, p, plane_through(p[0], q.z[part[0]], p[1], q.z[part[1]], p[2], q.z[part[2]]));
-        }
+    }
+
+    // Where the sections at both ends cross, what lies beyond their crossing is turned over and belongs to neither.
+    template <typename Use>
+    void use_untwisted(const Quad& q, const double* area, const Use& use) {
+        const double none = out_.fine * out_.fine;
+        const bool low = area[0] < -none || area[1] < -none, high = area[2] < -none || area[3] < -none;
+        if (low && high) return;
+        const int i = low ? 2 : 0, k = i + 1, third = low ? 0 : 2;  // the side that is not turned over, and a corner of the other
+        const Vec2 p[3] = {q.p[i], q.p[k], crossing_of(q.p[0], q.p[3], q.p[1], q.p[2])};
+        if (cross(p[1] - p[0], p[2] - p[0]) <= none) return;
+        const double z = plane_through(q.p[i], q.z[i], q.p[k], q.z[k], q.p[third], q.z[third]).at(p[2]);
+        use(3, p, plane_through(p[0], q.z[i], p[1], q.z[k], p[2], z));
     }
 
     Brush brush_over(int count, const Vec2* p, bool cut) {
@@ -157,7 +145,7 @@ class Sweeper {
             Brush brush = brush_over(count, p, slab.cut);
             brush.has_bottom = slab.has_bottom, brush.has_top = slab.has_top;
             (slab.has_bottom ? brush.bottom : brush.top) = plane;
-            if (slab.has_bottom && slab.has_top) brush.top = plane_through(other.p[0], other.z[0], other.p[1], other.z[1], other.p[3], other.z[3]);
+            if (slab.has_bottom && slab.has_top) brush.top = plane_of(other);
             put_brush(brush, level);
         });
     }
@@ -221,16 +209,14 @@ class Sweeper {
         put_facet(face, 4, corners, {n.x * sign, n.y * sign, 0.0}, facet);
     }
 
-    // A wall stands a little outside of what it bounds, so that it is judged by what lies there.
     void put_wall(FaceKind kind, Vec2 p, double zp, Vec2 q, double zq, Vec2 outward, double level) {
         if (length(q - p) <= out_.fine) return;
         const double edge = kind == FaceKind::cut ? std::max({gathered_.highest, zp, zq}) : level;
-        const Vec2 off = outward * (8.0 * out_.fine);
         Face face = face_of(kind, kWall, level);
         face.wall = true;
         const std::uint32_t from = out_.points.mark();
         for (const Vec3 corner : {Vec3{p.x, p.y, zp}, Vec3{q.x, q.y, zq}, Vec3{q.x, q.y, edge}, Vec3{p.x, p.y, edge}}) {
-            out_.points.add(corner + Vec3{off.x, off.y, 0.0});
+            out_.points.add(corner);
             include(face.box, plan(corner));
         }
         face.polygon = out_.points.close(from);
@@ -288,6 +274,7 @@ class Sweeper {
     // At the smaller or the larger offset of the facet.
     void wall_side(const Station& a, const Station& b, const ProfileFacet& facet, bool low, bool ends) {
         const std::uint32_t line = low ? facet.from : facet.to;
+        if (element_->step && profile_->lines[line] == 0.0) return;  // the ground's wall stands there
         const double h = low ? facet.h0 : facet.h1, za = height(a, h), zb = height(b, h), level = ground(facet.from, facet.to);
         Vec2 outward = normal_of(unit(at_b_[line] - at_a_[line]));
         if (low) outward = -outward;

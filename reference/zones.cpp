@@ -176,11 +176,13 @@ double ground_beside(const LocalGeometry& out, Vec2 p, double otherwise) {
     return otherwise;
 }
 
-// What a groove that stops at a step, or at the border of the map, leaves open: above each edge on the zone's border.
+// What a groove or ridge that stops at a step, or at the border of the map, leaves open: above or below each edge on the zone's
+// border.
 void wall_border(LocalGeometry& out, const Face& face, const Zone& zone) {
-    if (face.wall || face.kind != FaceKind::cut) return;
-    double highest = face.level;
-    for (const Zone& other : out.zones) highest = std::max(highest, other.level);
+    if (face.wall || face.kind == FaceKind::ground) return;
+    double highest = face.level, lowest = face.level;
+    for (const Zone& other : out.zones) highest = std::max(highest, other.level), lowest = std::min(lowest, other.level);
+    const double sign = face.kind == FaceKind::cut ? -1.0 : 1.0, edge_height = face.kind == FaceKind::cut ? highest : lowest;
     for (std::uint32_t k = 0; k < zone.polygon.count; ++k) {
         const HalfPlane edge = edge_of(out.plan, zone.polygon, k);
         for (std::uint32_t i = 0; i < face.polygon.count; ++i) {
@@ -190,10 +192,9 @@ void wall_border(LocalGeometry& out, const Face& face, const Zone& zone) {
             Face wall = face;
             wall.wall = true;
             wall.facet = kWall;
-            wall.normal = {-edge.n.x, -edge.n.y, 0.0};
-            const Vec3 off{edge.n.x * 8.0 * out.fine, edge.n.y * 8.0 * out.fine, 0.0};
+            wall.normal = {edge.n.x * sign, edge.n.y * sign, 0.0};
             const std::uint32_t from = out.points.mark();
-            for (const Vec3 corner : {a, b, Vec3{b.x, b.y, highest}, Vec3{a.x, a.y, highest}}) out.points.add(corner + off);
+            for (const Vec3 corner : {a, b, Vec3{b.x, b.y, edge_height}, Vec3{a.x, a.y, edge_height}}) out.points.add(corner);
             wall.polygon = out.points.close(from);
             // What is solid beside it is another zone's affair.
             wall.level = ground_beside(out, plan((a + b) * 0.5) + edge.n * (64.0 * out.fine), face.level);

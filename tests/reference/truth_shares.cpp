@@ -129,8 +129,9 @@ ResolvedPattern make_case(GrooveCase which, std::uint64_t seed) {
     return *resolve_pattern(maker.pattern);
 }
 
-Situation make_situation(std::uint64_t seed) {
-    Dice dice(seed ^ 0x5bd1e995u);
+namespace {
+
+Situation situation_at(Dice& dice, Vec2 at, double size, double drop) {
     Situation situation;
     const auto slope = [&] {
         const double elevation = dice.between(5.0, 90.0) * std::numbers::pi / 180.0;
@@ -138,39 +139,65 @@ Situation make_situation(std::uint64_t seed) {
     };
     situation.slopes.view = slope();
     situation.slopes.light = slope();
-    const double size = 0.0004 * std::pow(30.0, dice.between(0.0, 1.0));
     // As a round pixel lies on the plane: stretched along the view.
     const Vec2 along = unit(situation.slopes.view);
     const double stretch = std::min(std::hypot(1.0, length(situation.slopes.view)), 6.0);
-    const Vec2 centre = Vec2{0.05, 0.05} + dice.direction() * (0.003 * dice.between(0.0, 1.0)) - situation.slopes.view * 0.0032;
-    situation.footprint = reference::make_ellipse(centre, along * (size * stretch), normal_of(along) * size);
+    situation.footprint = reference::make_ellipse(at - situation.slopes.view * drop, along * (size * stretch), normal_of(along) * size);
     return situation;
 }
 
-Shares shares_by_truth(const Truth& truth, double top, double depth, const reference::Footprint& footprint, const reference::Slopes& slopes, int side,
-                       std::uint64_t seed) {
+}  // namespace
+
+Situation make_situation(std::uint64_t seed) {
+    Dice dice(seed ^ 0x5bd1e995u);
+    const double size = 0.0004 * std::pow(30.0, dice.between(0.0, 1.0));
+    return situation_at(dice, Vec2{0.05, 0.05} + dice.direction() * (0.003 * dice.between(0.0, 1.0)), size, 0.0032);
+}
+
+Situation make_situation_on(const ResolvedPattern& pattern, std::uint64_t seed) {
+    Dice dice(seed ^ 0x3c6ef372u);
+    const ResolvedElement& e = pattern.elements[std::size_t(dice.between(0.0, double(pattern.elements.size()) - 1e-6))];
+    double reach = 0.1 * pattern.depth;
+    for (const ProfilePoint& point : pattern.profiles[pattern.styles[e.style].profile].points) reach = std::max(reach, std::abs(point.b));
+    const double s = dice.between(-0.1, 1.1);
+    const Vec2 at = lerp(lerp(e.element.p0, e.element.p1, s), lerp(e.element.p1, e.element.p2, s), s) + dice.direction() * (reach * dice.between(0.0, 1.0));
+    return situation_at(dice, at, reach * 0.15 * std::pow(20.0, dice.between(0.0, 1.0)), pattern.base_offset);
+}
+
+namespace {
+
+// Walls are one thing, whatever they belong to.
+std::pair<std::uint32_t, std::uint32_t> key_of(const ResolvedPattern& pattern, std::uint32_t element, std::uint32_t facet) {
+    if (facet == kWall || element == kGround) return {kGround, facet};
+    return {pattern.elements[element].path, facet};
+}
+
+}  // namespace
+
+Shares shares_by_truth(const reference::GroovedSurface& surface, const Situation& situation, int side, std::uint64_t seed) {
     Dice dice(seed);
-    const Box box = reference::box_of(footprint);
+    const Box box = reference::box_of(situation.footprint);
+    const ResolvedPattern& pattern = surface.pattern();
     Shares shares;
     double count = 0.0;
     for (int k = 0; k < side * side; ++k) {
         const Vec2 cell{(k % side + dice.between(0, 1)) / side, (k / side + dice.between(0, 1)) / side};
         const Vec2 at{box.low.x + (box.high.x - box.low.x) * cell.x, box.low.y + (box.high.y - box.low.y) * cell.y};
-        if (!holds(footprint, at)) continue;
-        const RayHit hit = trace(truth, at, top, slopes.view);
-        FacetShare& share = shares[{hit.facet == kWall ? kGround : hit.element, hit.facet}];
+        if (!holds(situation.footprint, at)) continue;
+        const RayHit hit = trace(surface.truth(), at, surface.top(), situation.slopes.view);
+        FacetShare& share = shares[key_of(pattern, hit.element, hit.facet)];
         count += 1.0;
         share.seen += 1.0;
-        if (is_lit(truth, hit, top, depth, slopes)) share.lit += 1.0;
+        if (is_lit(surface.truth(), hit, surface.top(), pattern.depth, situation.slopes)) share.lit += 1.0;
     }
     for (auto& [key, share] : shares) share.seen /= count, share.lit /= count;
     return shares;
 }
 
-Shares gather_shares(const std::vector<reference::Share>& list) {
+Shares gather_shares(const ResolvedPattern& pattern, const std::vector<reference::Share>& list) {
     Shares shares;
     for (const reference::Share& one : list) {
-        FacetShare& share = shares[{one.facet == kWall ? kGround : one.element, one.facet}];
+        FacetShare& share = shares[key_of(pattern, one.element, one.facet)];
         share.seen += one.seen;
         share.lit += one.lit;
     }

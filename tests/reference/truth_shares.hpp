@@ -12,16 +12,21 @@
 
 namespace burin::testing {
 
-// By element and facet: what is seen, and what of it is lit.
+// A footprint, seen and lit from 5 to 90 degrees.
+struct Situation {
+    reference::Footprint footprint;
+    reference::Slopes slopes;
+};
+
+// By path and facet: what is seen, and what of it is lit. Elements that go on in each other share their facets.
 struct FacetShare {
     double seen = 0.0, lit = 0.0;
 };
 using Shares = std::map<std::pair<std::uint32_t, std::uint32_t>, FacetShare>;
 
 // `side` x `side` rays, one in each cell of a grid over the footprint's box that its polygon holds.
-Shares shares_by_truth(const Truth& truth, double top, double depth, const reference::Footprint& footprint, const reference::Slopes& slopes, int side,
-                       std::uint64_t seed);
-Shares gather_shares(const std::vector<reference::Share>& shares);
+Shares shares_by_truth(const reference::GroovedSurface& surface, const Situation& situation, int side, std::uint64_t seed);
+Shares gather_shares(const ResolvedPattern& pattern, const std::vector<reference::Share>& shares);
 
 // Part of the footprint that the two give to different facets, seen and lit.
 struct ShareError {
@@ -36,11 +41,9 @@ const char* name_of(GrooveCase which);
 // A pattern of some ten centimetres with the case near its middle, (0.05, 0.05); features about 4 mm wide, 1 to 3 mm deep.
 ResolvedPattern make_case(GrooveCase which, std::uint64_t seed);
 
-// A footprint near the middle, from a tenth of a groove to several grooves large, seen and lit from 5 to 90 degrees.
-struct Situation {
-    reference::Footprint footprint;
-    reference::Slopes slopes;
-};
+// Near the middle, from a tenth of a groove to several grooves large.
 Situation make_situation(std::uint64_t seed);
+// The same at a random element of a pattern.
+Situation make_situation_on(const ResolvedPattern& pattern, std::uint64_t seed);
 
 }  // namespace burin::testing
