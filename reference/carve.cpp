@@ -40,10 +40,22 @@ class Carver {
             if (!meet(brush.box, face.box) || (face.kind == FaceKind::cut && !brush.cut) || spares(face, brush)) continue;
             remove(face, b, tie(face, brush));
         }
+        if (face.wall) keep_first_wall(face);
         for (const Polygon p : out_.kept) out_.pieces.push_back({index, p});
     }
 
   private:
+    // Of walls at one place that of the first element stays: behind what stands, and before what is cut, lies no other's.
+    void keep_first_wall(const Face& face) {
+        Face turned = face;
+        turned.normal = face.normal * -1.0;
+        const bool cut = face.kind == FaceKind::cut;
+        for (std::size_t b = 0; b < geometry_.brushes.size() && !out_.kept.empty(); ++b) {
+            const Brush& brush = geometry_.brushes[b];
+            if (brush.cut == cut && brush.instance < face.instance && meet(brush.box, face.box)) remove(turned, b, -geometry_.fine);
+        }
+    }
+
     void keep(Polygon p) {
         if (p) out_.kept.push_back(p);
     }

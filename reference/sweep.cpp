@@ -228,6 +228,8 @@ class Sweeper {
     void wall_of_facet(const ProfileFacet& facet, Vec2 p, double zp, Vec2 q, double zq, Vec2 outward) {
         if (length(q - p) <= out_.fine) return;
         const double level = ground(facet.from, facet.to);
+        // Where the ground changes just there, the border of the zone has the wall.
+        if (!acts_there(out_, lerp(p, q, 0.5) + outward * (64.0 * out_.fine), level)) return;
         if (facet.internal) put_wall(FaceKind::cut, p, zp, q, zq, outward, level);
         if (std::max(zp, zq) > level + out_.fine) put_wall(FaceKind::add, p, zp, q, zq, outward, level);
     }

@@ -19,23 +19,26 @@ Polygon overlap(Polygons<Vec2>& pool, Polygon p, Polygon q) {
     return is_solid(pool, p) ? p : Polygon{};
 }
 
-// Whether the way from a to b runs through the inside of the polygon.
-bool runs_through(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b) {
+// The part of the way from a to b that runs through the inside of the polygon, from 0 to 1.
+struct Part {
     double low = 0.0, high = 1.0;
+};
+Part part_inside(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b) {
+    Part part;
     for (std::uint32_t i = 0; i < p.count; ++i) {
         const HalfPlane edge = edge_of(out.plan, p, i);
         const double at_a = beyond(edge, a) + out.fine, at_b = beyond(edge, b) + out.fine;
-        if (at_a >= 0.0 && at_b >= 0.0) return false;
-        if (at_a > 0.0) low = std::max(low, at_a / (at_a - at_b));
-        if (at_b > 0.0) high = std::min(high, at_a / (at_a - at_b));
+        if (at_a >= 0.0 && at_b >= 0.0) return {1.0, 0.0};
+        if (at_a > 0.0) part.low = std::max(part.low, at_a / (at_a - at_b));
+        if (at_b > 0.0) part.high = std::min(part.high, at_a / (at_a - at_b));
     }
-    return low < high;
+    return part;
 }
 
 void split_zones(LocalGeometry& out, const HalfPlane& line, Vec2 a, Vec2 b) {
     const std::size_t count = out.zones.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (!runs_through(out, out.zones[i].polygon, a, b)) continue;
+        if (const Part part = part_inside(out, out.zones[i].polygon, a, b); part.low >= part.high) continue;
         Polygon inside, outside;
         out.plan.split(out.zones[i].polygon, line, inside, outside);
         if (!inside || !outside) continue;
@@ -141,6 +144,15 @@ void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const
         });
 }
 
+bool acts_there(const LocalGeometry& out, Vec2 p, double level) {
+    for (const Zone& zone : out.zones) {
+        bool inside = true;
+        for (std::uint32_t i = 0; inside && i < zone.polygon.count; ++i) inside = beyond(edge_of(out.plan, zone.polygon, i), p) <= 0.0;
+        if (inside) return acts_in(out, zone, level);
+    }
+    return true;
+}
+
 void limit_to_zones(LocalGeometry& out, const Brush& brush, double level) {
     const bool whole = std::all_of(out.zones.begin(), out.zones.end(), [&](const Zone& zone) {
         return acts_in(out, zone, level) || !meet(zone.box, brush.box) || !overlap(out.plan, brush.polygon, zone.polygon);
@@ -166,39 +178,43 @@ Polygon inside_zone(LocalGeometry& out, Polygon p, const Zone& zone) {
     return p;
 }
 
-// The level of the zone that p lies in.
-double ground_beside(const LocalGeometry& out, Vec2 p, double otherwise) {
-    for (const Zone& zone : out.zones) {
-        bool inside = true;
-        for (std::uint32_t i = 0; inside && i < zone.polygon.count; ++i) inside = beyond(edge_of(out.plan, zone.polygon, i), p) <= 0.0;
-        if (inside) return zone.level;
+// The wall over, or under, the edge from a to b of a face that ends at a zone of another level.
+void wall_edge(LocalGeometry& out, const Face& face, Vec3 a, Vec3 b, Vec2 outward, double level, double far) {
+    Face wall = face;
+    wall.wall = true;
+    wall.facet = kWall;
+    const double sign = face.kind == FaceKind::cut ? -1.0 : 1.0;
+    wall.normal = {outward.x * sign, outward.y * sign, 0.0};
+    wall.level = level;
+    wall.box = {};
+    const std::uint32_t from = out.points.mark();
+    for (const Vec3 corner : {a, b, Vec3{b.x, b.y, far}, Vec3{a.x, a.y, far}}) {
+        out.points.add(corner);
+        include(wall.box, plan(corner));
     }
-    return otherwise;
+    wall.polygon = out.points.close(from);
+    out.faces.push_back(wall);
 }
 
 // What a groove or ridge that stops at a step, or at the border of the map, leaves open: above or below each edge on the zone's
-// border.
+// border, as far as another level lies beyond it.
 void wall_border(LocalGeometry& out, const Face& face, const Zone& zone) {
     if (face.wall || face.kind == FaceKind::ground) return;
-    double highest = face.level, lowest = face.level;
-    for (const Zone& other : out.zones) highest = std::max(highest, other.level), lowest = std::min(lowest, other.level);
-    const double sign = face.kind == FaceKind::cut ? -1.0 : 1.0, edge_height = face.kind == FaceKind::cut ? highest : lowest;
+    double highest = face.level;
+    for (const Zone& other : out.zones) highest = std::max(highest, other.level);
+    const double far = face.kind == FaceKind::cut ? highest : face.level;
     for (std::uint32_t k = 0; k < zone.polygon.count; ++k) {
         const HalfPlane edge = edge_of(out.plan, zone.polygon, k);
+        const Vec2 off = edge.n * (64.0 * out.fine);
         for (std::uint32_t i = 0; i < face.polygon.count; ++i) {
             const Vec3 a = out.points(face.polygon, i), b = out.points(face.polygon, i + 1 < face.polygon.count ? i + 1 : 0);
             if (std::abs(beyond(edge, plan(a))) > out.fine || std::abs(beyond(edge, plan(b))) > out.fine) continue;
             if (length(plan(b) - plan(a)) <= out.fine) continue;
-            Face wall = face;
-            wall.wall = true;
-            wall.facet = kWall;
-            wall.normal = {edge.n.x * sign, edge.n.y * sign, 0.0};
-            const std::uint32_t from = out.points.mark();
-            for (const Vec3 corner : {a, b, Vec3{b.x, b.y, edge_height}, Vec3{a.x, a.y, edge_height}}) out.points.add(corner);
-            wall.polygon = out.points.close(from);
-            // What is solid beside it is another zone's affair.
-            wall.level = ground_beside(out, plan((a + b) * 0.5) + edge.n * (64.0 * out.fine), face.level);
-            out.faces.push_back(wall);
+            for (const Zone& other : out.zones) {
+                if (acts_in(out, other, face.level)) continue;
+                const Part part = part_inside(out, other.polygon, plan(a) + off, plan(b) + off);
+                if (part.low < part.high) wall_edge(out, face, a + (b - a) * part.low, a + (b - a) * part.high, edge.n, other.level, far);
+            }
         }
     }
 }

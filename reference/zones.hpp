@@ -9,6 +9,9 @@ namespace burin::reference {
 // Sets out.zones. Cost: zones times pieces of steps.
 void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out);
 
+// Whether what belongs to ground of that level acts at p; true outside of the domain.
+bool acts_there(const LocalGeometry& out, Vec2 p, double level);
+
 // Adds the brush or face, or what of it lies over ground of its level. Faces end up with the walls that they need there.
 void limit_to_zones(LocalGeometry& out, const Brush& brush, double level);
 void limit_to_zones(LocalGeometry& out, const Face& face);
