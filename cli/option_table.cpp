@@ -123,8 +123,11 @@ std::vector<OptionSpec> make_table() {
          "filter features as areas, by rays where they meet; or by rays alone"},
         {"--rays", "render", integer, "COUNT", "", plain(render.rays), 4, 64, "", false,
          "rays per sample where features meet in a pixel"},
-        {"--backend", "render check", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl", false,
-         "OpenGL by OSMesa, which needs no GPU, or by EGL"},
+        {"--backend", "render", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl|reference", false,
+         "OpenGL by OSMesa, which needs no GPU, or by EGL; or the accurate renderer on the CPU, without OpenGL"},
+        {"--backend", "check", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl", false, "OpenGL by OSMesa, which needs no GPU, or by EGL"},
+        {"--threads", "render", integer, "COUNT", "", "0", 0, 256, "", false,
+         "threads of --backend reference, 0 for all cores; the picture does not depend on it"},
 
         {"--format", "convert vectorize render check info validate", choice, "WHICH", "", "text", 0, 0, "text|json", false,
          "how results are printed"},

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <burin/image_io.hpp>
@@ -10,6 +11,7 @@
 #include <burin/radiance.hpp>
 
 #include <gl/render.hpp>
+#include <reference/render.hpp>
 
 #include "asset_file.hpp"
 #include "command.hpp"
@@ -102,7 +104,20 @@ RenderOptions render_options(const Arguments& arguments) {
     return options;
 }
 
-// Both drawers give the size, or why nothing could be drawn; `write` then writes the picture.
+// What the shader is asked for says nothing to the renderer on the CPU, and the other way round.
+Status check_backend(const Arguments& arguments) {
+    if (arguments.text("--backend") != "reference") {
+        if (!arguments.given("--threads")) return Done{};
+        return Error{ErrorCode::invalid_argument, "--threads changes nothing with --backend " + arguments.text("--backend") + "; reference works"};
+    }
+    for (const char* other : {"--samples", "--antialiasing", "--rays", "--correct-depth", "--top", "--environment"})
+        if (arguments.given(other))
+            return Error{ErrorCode::invalid_argument, std::string(other) + " is not for --backend reference, which takes one sample of exact areas "
+                                                      "in one light; osmesa or egl works"};
+    return Done{};
+}
+
+// All drawers give the size, or why nothing could be drawn; `write` then writes the picture.
 Result<PictureSize> draw_heights(const Arguments& arguments, const Asset& asset, Writer& write) {
     const auto material = find_patterned_material(asset, arguments.text("--material"));
     if (!material) return material.error();
@@ -148,17 +163,41 @@ Status check_camera(const Camera& camera, const Asset& asset) {
                      (camera.target ? "--target" : "the middle of the asset") + "; two different points work"};
 }
 
-Result<PictureSize> draw_view(const Arguments& arguments, const Asset& asset, Writer& write) {
+// Camera and material are checked as for the shader.
+Status check_view(const Arguments& arguments, const Asset& asset, const RenderOptions& options) {
     // A view shows every material; a name that no pattern has is a mistake all the same.
     if (arguments.given("--material"))
         if (const auto found = find_patterned_material(asset, arguments.text("--material")); !found) return found.error();
+    return check_camera(options.camera, asset);
+}
+
+Result<PictureSize> draw_view(const Arguments& arguments, const Asset& asset, Writer& write) {
     RenderOptions options = render_options(arguments);
+    if (const Status checked = check_view(arguments, asset, options); !checked) return checked.error();
     if (const Status read = read_environment(arguments, options); !read) return read.error();
-    if (const Status placed = check_camera(options.camera, asset); !placed) return placed.error();
     const auto picture = render_asset(asset, options);
     if (!picture) return picture.error();
     write = [picture = *picture](const std::string& path) { return write_png(path, picture); };
     return PictureSize{options.width, options.height};
+}
+
+Result<PictureSize> draw_reference(const Arguments& arguments, const Asset& asset, std::optional<Field>& said, Writer& write) {
+    reference::ReferenceOptions options;
+    options.view = render_options(arguments);
+    if (const Status checked = check_view(arguments, asset, options.view); !checked) return checked.error();
+    options.threads = arguments.integer("--threads");
+    ProgressLine line(arguments);
+    options.progress = [&](double done) { line.update("render", done); };
+    const auto picture = reference::render_reference(asset, options);
+    if (!picture) return picture.error();
+    line.finish();
+    const auto count = [](long value) { return static_cast<std::int64_t>(value); };
+    said = group("footprints", "footprints",
+                 {{"all", "all", count(picture->stats.footprints), ""},
+                  {"by_line", "by line sampling", count(picture->stats.by_line), ""},
+                  {"by_area", "by area sampling", count(picture->stats.by_area), ""}});
+    write = [image = picture->image()](const std::string& path) { return write_png(path, image); };
+    return PictureSize{options.view.width, options.view.height};
 }
 
 }  // namespace
@@ -168,6 +207,10 @@ Backend backend_of(const Arguments& arguments) {
 }
 
 void add_renderer(Report& report, const Arguments& arguments) {
+    if (arguments.text("--backend") == "reference") {
+        report.add({"renderer", "renderer", std::string{"reference, on the CPU"}, ""});
+        return;
+    }
     // The drawing went well, so that a backend that is not there now is no reason to fail.
     const auto text = describe_backend(backend_of(arguments));
     report.add({"renderer", "renderer", text ? *text : text.error().message, ""});
@@ -180,10 +223,14 @@ ExitCode run_render(const Arguments& arguments) {
     const std::string output = arguments.text("--output");
     if (const Status other = check_outputs({{"--output", output, {}}}, {arguments.file}); !other)
         return fail(arguments, ExitCode::usage, other.error().message);
+    if (const Status backend = check_backend(arguments); !backend) return fail(arguments, ExitCode::usage, backend.error().message);
     const auto file = read_asset_file(arguments.file, {.pictures = !top});
     if (!file) return fail(arguments, code_for_input(file.error()), file.error().message);
     Writer write;
-    const auto size = top ? draw_heights(arguments, file->asset, write) : draw_view(arguments, file->asset, write);
+    std::optional<Field> said;  // what the drawing itself has to say
+    const auto size = top ? draw_heights(arguments, file->asset, write)
+                          : arguments.text("--backend") == "reference" ? draw_reference(arguments, file->asset, said, write)
+                                                                       : draw_view(arguments, file->asset, write);
     if (!size) return fail(arguments, code_for_input(size.error()), size.error().message);
 
     Report report;
@@ -192,6 +239,7 @@ ExitCode run_render(const Arguments& arguments) {
                      {{"width", "width", std::int64_t{size->width}, ""},
                       {"height", "height", std::int64_t{size->height}, ""}});
     add_renderer(report, arguments);
+    if (said) report.add(*said);
     return write_and_print(arguments, report, {{"--output", output, write}});
 }
 

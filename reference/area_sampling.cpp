@@ -28,10 +28,10 @@ constexpr double kEdgeOn = 1e-9;
 
 class Sampler {
   public:
-    Sampler(const LocalGeometry& geometry, const Carving& carving, const Slopes& slopes, double top, AreaSampling& work)
-        : geometry_(geometry), carving_(carving), slopes_(slopes), eye_{slopes.view, top}, lamp_{slopes.light, top}, work_(work) {
+    Sampler(Carver& carver, const Slopes& slopes, double top, AreaSampling& work)
+        : carver_(carver), geometry_(carver.geometry()), slopes_(slopes), eye_{slopes.view, top}, lamp_{slopes.light, top}, work_(work) {
         work_.plane.clear();
-        work_.plane.thin = geometry.points.thin;
+        work_.plane.thin = geometry_.points.thin;
     }
 
     void show_faces(const Footprint& footprint) {
@@ -44,18 +44,14 @@ class Sampler {
             include(box, p);
         }
         const Polygon whole = work_.plane.close(from);
-        for (const Piece& piece : carving_.pieces) {
-            const Face& face = geometry_.faces[piece.face];
-            const double facing = eye_.facing(face);
-            if (std::abs(facing) < kEdgeOn) continue;
-            Shown shown = show(piece, eye_);
-            if (!meet(shown.box, box)) continue;
+        for_each_shown(box, eye_, [&](Shown shown) {
+            const double facing = eye_.facing(geometry_.faces[shown.face]);
             for (std::uint32_t i = 0; shown.polygon && i < whole.count; ++i)
                 shown.polygon = work_.plane.clip(shown.polygon, edge_of(work_.plane, whole, i));
-            if (!is_solid(work_.plane, shown.polygon)) continue;
+            if (!is_solid(work_.plane, shown.polygon)) return;
             shown.box = box_of(work_.plane, shown.polygon);
             (facing > 0.0 ? work_.front : work_.hiding).push_back(shown);
-        }
+        });
     }
 
     void hide() {
@@ -78,11 +74,9 @@ class Sampler {
             for (const Vec2* q = work_.plane.begin(seen.polygon); q != work_.plane.end(seen.polygon); ++q)
                 include(box, lamp_.show(eye_.meet(face, corner_of(face), *q)));
         }
-        for (const Piece& piece : carving_.pieces) {
-            if (lamp_.facing(geometry_.faces[piece.face]) >= -kEdgeOn) continue;
-            const Shown shown = show(piece, lamp_);
-            if (shown.polygon && meet(shown.box, box)) work_.shading.push_back(shown);
-        }
+        for_each_shown(box, lamp_, [&](const Shown& shown) {
+            if (lamp_.facing(geometry_.faces[shown.face]) < 0.0) work_.shading.push_back(shown);
+        });
     }
 
     // Share of what is seen that the light reaches.
@@ -122,10 +116,27 @@ class Sampler {
         return -area;
     }
 
-    Shown show(const Piece& piece, const Direction& direction) {
-        Shown shown{piece.face, {}, {}};
+    // Calls use(shown) for the pieces of faces that are not seen edge-on, where their boxes meet `box`.
+    template <typename Use>
+    void for_each_shown(const Box& box, const Direction& direction, const Use& use) {
+        for (std::uint32_t i = 0; i < geometry_.faces.size(); ++i) {
+            const Face& face = geometry_.faces[i];
+            if (std::abs(direction.facing(face)) < kEdgeOn) continue;
+            Box whole;
+            for (const Vec3* p = geometry_.points.begin(face.polygon); p != geometry_.points.end(face.polygon); ++p) include(whole, direction.show(*p));
+            if (!meet(whole, box)) continue;
+            const Carving::Pieces pieces = carver_.pieces_of(i);
+            for (std::uint32_t k = 0; k < pieces.count; ++k) {
+                const Shown shown = show(i, carver_.piece(pieces.first + k), direction);
+                if (shown.polygon && meet(shown.box, box)) use(shown);
+            }
+        }
+    }
+
+    Shown show(std::uint32_t face, Polygon polygon, const Direction& direction) {
+        Shown shown{face, {}, {}};
         const std::uint32_t from = work_.plane.mark();
-        for (const Vec3* p = geometry_.points.begin(piece.polygon); p != geometry_.points.end(piece.polygon); ++p)
+        for (const Vec3* p = geometry_.points.begin(polygon); p != geometry_.points.end(polygon); ++p)
             work_.plane.add(direction.show(*p));
         shown.polygon = work_.plane.close(from);
         orient(shown);
@@ -158,8 +169,8 @@ class Sampler {
         return direction.height(first, corner_of(first), q) > direction.height(second, corner_of(second), q);
     }
 
+    Carver& carver_;
     const LocalGeometry& geometry_;
-    const Carving& carving_;
     const Slopes& slopes_;
     Direction eye_, lamp_;
     AreaSampling& work_;
@@ -175,15 +186,15 @@ Share share_of(const Face& face, const Gathered& gathered) {
 
 }  // namespace
 
-void sample_areas(const LocalGeometry& geometry, const Carving& carving, const Gathered& gathered, const Footprint& footprint, double top,
-                  const Slopes& slopes, double whole, AreaSampling& work, std::vector<Share>& out) {
-    Sampler sampler(geometry, carving, slopes, top, work);
+void sample_areas(Carver& carver, const Footprint& footprint, double top, const Slopes& slopes, double whole, AreaSampling& work,
+                  std::vector<Share>& out) {
+    Sampler sampler(carver, slopes, top, work);
     sampler.show_faces(footprint);
     sampler.hide();
     sampler.show_shading();
     for (std::size_t i = 0; i < work.seen.size();) {
         const std::uint32_t index = work.seen[i].face;
-        Share share = share_of(geometry.faces[index], gathered);
+        Share share = share_of(carver.geometry().faces[index], carver.gathered());
         Vec3 places;
         for (; i < work.seen.size() && work.seen[i].face == index; ++i) {
             const double seen = area_of(work.plane, work.seen[i].polygon) / whole;

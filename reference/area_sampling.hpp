@@ -27,9 +27,9 @@ struct AreaSampling {
     std::vector<Polygon> kept, next;
 };
 
-// Adds to `out` one share for each face that is seen, as parts of `whole`, an area. Requires: faces carved, in the domain of
-// this footprint or of one around it.
-void sample_areas(const LocalGeometry& geometry, const Carving& carving, const Gathered& gathered, const Footprint& footprint, double top,
-                  const Slopes& slopes, double whole, AreaSampling& work, std::vector<Share>& out);
+// Adds to `out` one share for each face that is seen, as parts of `whole`, an area. Requires: a carver of all that was gathered
+// for this footprint. `top`: where footprints lie.
+void sample_areas(Carver& carver, const Footprint& footprint, double top, const Slopes& slopes, double whole, AreaSampling& work,
+                  std::vector<Share>& out);
 
 }  // namespace burin::reference

@@ -1,5 +1,6 @@
 #include "areas.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <burin/evaluate.hpp>
@@ -15,14 +16,14 @@ class Finder {
         : surface_(surface), slopes_(slopes), options_(options), whole_(whole), work_(work), out_(out) {}
 
     void find(const Footprint& footprint, int halvings) {
-        gather_grooves(surface_, box_of(footprint), slopes_, work_.gathered);
+        gather_grooves(surface_, footprint, slopes_, work_.gathered);
         const double tolerance = options_.tolerance * std::sqrt(area_of(footprint));
         if (work_.gathered.instances.empty() && is_plain()) return find_plain(footprint);
         if (options_.lines && sample_lines(surface_, work_.gathered, footprint, slopes_, tolerance, whole_, work_.line, out_)) {
             ++work_.by_line;
             return;
         }
-        if (static_cast<int>(work_.gathered.instances.size()) > options_.most_elements && halvings < kMostHalvings) {
+        if (halvings < kMostHalvings && is_worth_halving(footprint)) {
             Footprint first, second;
             halve(footprint, first, second);
             find(first, halvings + 1);
@@ -31,21 +32,27 @@ class Finder {
         }
         ++work_.by_area;
         sweep_grooves(surface_, work_.gathered, {tolerance}, work_.geometry);
-        carve_faces(work_.geometry, surface_, work_.gathered, work_.carving);
-        sample_areas(work_.geometry, work_.carving, work_.gathered, footprint, surface_.top(), slopes_, whole_, work_.area, out_);
+        Carver carver(work_.geometry, surface_, work_.gathered, work_.carving);
+        sample_areas(carver, footprint, surface_.top(), slopes_, whole_, work_.area, out_);
     }
 
   private:
+    // Many elements, and fewer of them near a half: not where what matters is long for the sake of low view or light.
+    bool is_worth_halving(const Footprint& footprint) const {
+        if (static_cast<int>(work_.gathered.instances.size()) <= options_.most_elements) return false;
+        const Box own = box_of(footprint), &all = work_.gathered.region.box;
+        return std::max(own.high.x - own.low.x, own.high.y - own.low.y) > 0.4 * std::max(all.high.x - all.low.x, all.high.y - all.low.y);
+    }
     // Nothing but one level of ground.
     bool is_plain() const {
         const Vec2 size = surface_.pattern().size;
-        const Box& domain = work_.gathered.domain;
+        const Box& domain = work_.gathered.region.box;
         return surface_.pattern().wrap == Wrap::repeat ||
                !(domain.low.x < 0.0 || domain.low.y < 0.0 || domain.high.x > size.x || domain.high.y > size.y);
     }
     void find_plain(const Footprint& footprint) {
         const Vec2 middle = middle_of(footprint);
-        const double level = ground_near(surface_, lerp(work_.gathered.seen.low, work_.gathered.seen.high, 0.5));
+        const double level = ground_near(surface_, lerp(work_.gathered.region.box.low, work_.gathered.region.box.high, 0.5));
         Share share;
         share.element = share.facet = kGround;
         share.normal = {0, 0, 1};

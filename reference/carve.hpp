@@ -1,6 +1,6 @@
 // What of the faces is the surface: all additions before any subtraction. [2008] 6.2, DESIGN 2
 //
-//     LocalGeometry --[carve_faces]--> pieces of faces
+//     LocalGeometry --[Carver]--> pieces of faces
 //
 // A face of the ground or of an addition is lost where it lies inside an addition of another element, or in any cut; a
 // face of a cut is lost in another element's cut, and where there was nothing to cut. Of faces that coincide the one of the
@@ -11,20 +11,47 @@
 
 namespace burin::reference {
 
-struct Piece {
-    std::uint32_t face = 0;  // index into LocalGeometry::faces
-    Polygon polygon;         // in LocalGeometry::points
-};
-
 // Memory of one thread, used again and again.
 struct Carving {
-    std::vector<Piece> pieces;
+    struct Pieces {
+        std::uint32_t first = 0, count = 0;
+        bool carved = false;
+    };
+    std::vector<Polygon> pieces;            // in LocalGeometry::points
+    std::vector<Pieces> of_face;
     std::vector<HalfSpace> halves;          // of all brushes
     std::vector<std::uint32_t> first_half;  // of each brush, and one past the last
     std::vector<Polygon> kept, next, solid;
 };
 
-// Fills out.pieces. Cost: faces times brushes whose boxes meet.
-void carve_faces(LocalGeometry& geometry, const GroovedSurface& surface, const Gathered& gathered, Carving& out);
+// Carves a face when it is first asked for: most are neither seen nor throw a shadow. All must outlive it.
+class Carver {
+  public:
+    Carver(LocalGeometry& geometry, const GroovedSurface& surface, const Gathered& gathered, Carving& work);
+
+    const LocalGeometry& geometry() const { return geometry_; }
+    const Gathered& gathered() const { return gathered_; }
+    // What is left of a face, as a range of Carving::pieces. Cost: the brushes whose boxes meet its own.
+    Carving::Pieces pieces_of(std::uint32_t face);
+    Polygon piece(std::uint32_t index) const { return work_.pieces[index]; }
+
+  private:
+    void carve(const Face& face);
+    void keep_first_wall(const Face& face);
+    void keep(Polygon p);
+    bool overhangs(std::uint32_t instance) const;
+    bool spares(const Face& face, const Brush& brush) const;
+    double tie(const Face& face, const Brush& brush) const;
+    void keep_solid(const Face& face);
+    void remove(const Face& face, std::size_t brush, double grow);
+    Vec2 judged_at(const Face& face, const Brush& brush) const;
+    Polygon subtract(const Face& face, Polygon p, std::size_t index, double grow);
+    bool all_beyond(Polygon p, const HalfSpace& half) const;
+
+    LocalGeometry& geometry_;
+    const GroovedSurface& surface_;
+    const Gathered& gathered_;
+    Carving& work_;
+};
 
 }  // namespace burin::reference

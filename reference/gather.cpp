@@ -10,12 +10,6 @@
 namespace burin::reference {
 namespace {
 
-void sweep_box(Box& box, Vec2 by) {
-    const Box moved{box.low + by, box.high + by};
-    include(box, moved.low);
-    include(box, moved.high);
-}
-
 struct CellRange {
     int low[2], high[2];  // both included; not yet wrapped
 };
@@ -53,12 +47,15 @@ Vec2 image_of(const GroovedSurface& surface, std::uint32_t element, int i, int j
             pattern.size.y * std::floor((centre.y - middle.y) / pattern.size.y + 0.5)};
 }
 
-// A line's strip may pass the box by although its own box does not.
-bool strip_meets(const PreparedElement& e, Vec2 shift, const Box& box) {
-    if (!meet({e.box.low + shift, e.box.high + shift}, box)) return false;
+// A line's strip may pass the region by although its box does not.
+bool strip_meets(const PreparedElement& e, Vec2 shift, const Region& region) {
+    if (!region.meets({e.box.low + shift, e.box.high + shift})) return false;
     if (e.kind != ElementKind::line) return true;
-    const Vec2 n = normal_of(e.tangent), centre = lerp(box.low, box.high, 0.5), half = (box.high - box.low) * 0.5;
-    return std::abs(dot(centre - e.p0 - shift, n)) <= e.reach + std::abs(n.x) * half.x + std::abs(n.y) * half.y;
+    const Vec2 n = normal_of(e.tangent);
+    double low, high;
+    region.extent(n, low, high);
+    const double at = dot(e.p0 + shift, n);
+    return at + e.reach >= low && at - e.reach <= high;
 }
 
 template <typename Visit>
@@ -73,7 +70,7 @@ void for_each_cell(const GroovedSurface& surface, const Box& box, const Visit& v
 
 void bound_heights(const GroovedSurface& surface, Gathered& out) {
     out.lowest = surface.top(), out.highest = -1e300;
-    for_each_cell(surface, out.domain, [&](int, int, std::size_t cell) {
+    for_each_cell(surface, out.region.box, [&](int, int, std::size_t cell) {
         out.lowest = std::min(out.lowest, surface.grid().lowest[cell]);
         out.highest = std::max(out.highest, surface.grid().highest[cell]);
     });
@@ -82,30 +79,61 @@ void bound_heights(const GroovedSurface& surface, Gathered& out) {
     out.highest = std::max(out.highest, surface.pattern().outer_level);
 }
 
-void set_boxes(const GroovedSurface& surface, const Box& footprint, const Slopes& slopes, Gathered& out) {
-    out.seen = footprint;
-    sweep_box(out.seen, slopes.view * (surface.top() - out.lowest));
-    out.domain = out.seen;
-    if (slopes.lit) sweep_box(out.domain, slopes.light * (out.lowest - out.highest));
+void set_region(const GroovedSurface& surface, const Slopes& slopes, Gathered& out) {
+    out.region.sweep[0] = slopes.view * (surface.top() - out.lowest);
+    out.region.sweep[1] = slopes.lit ? slopes.light * (out.lowest - out.highest) : Vec2{0, 0};
+    out.region.bound();
 }
 
 }  // namespace
 
-void gather_grooves(const GroovedSurface& surface, const Box& footprint, const Slopes& slopes, Gathered& out) {
+void Region::extent(Vec2 n, double& low, double& high) const {
+    low = 1e300, high = -1e300;
+    for (const Vec2 p : footprint.corners) {
+        low = std::min(low, dot(p, n));
+        high = std::max(high, dot(p, n));
+    }
+    for (const Vec2 by : sweep) {
+        low += std::min(0.0, dot(by, n));
+        high += std::max(0.0, dot(by, n));
+    }
+}
+
+void Region::bound() {
+    extent({1, 0}, box.low.x, box.high.x);
+    extent({0, 1}, box.low.y, box.high.y);
+    for (int k = 0; k < 2; ++k) {
+        slabs[k].n = normal_of(unit(sweep[k]));
+        extent(slabs[k].n, slabs[k].low, slabs[k].high);
+    }
+}
+
+bool Region::meets(const Box& other) const {
+    if (!meet(box, other)) return false;
+    const Vec2 centre = lerp(other.low, other.high, 0.5), half = (other.high - other.low) * 0.5;
+    for (const Slab& slab : slabs) {
+        const double at = dot(centre, slab.n), reach = std::abs(slab.n.x) * half.x + std::abs(slab.n.y) * half.y;
+        if (at + reach < slab.low || at - reach > slab.high) return false;
+    }
+    return true;
+}
+
+void gather_grooves(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, Gathered& out) {
+    out.region.footprint.corners.assign(footprint.corners.begin(), footprint.corners.end());
     out.lowest = surface.lowest(), out.highest = surface.top();
-    set_boxes(surface, footprint, slopes, out);
+    set_region(surface, slopes, out);
     // What lies there may be less deep than the whole pattern.
     bound_heights(surface, out);
-    set_boxes(surface, footprint, slopes, out);
+    set_region(surface, slopes, out);
     out.instances.clear();
     out.steps = false;
     const auto& elements = surface.truth().prepared().elements;
-    for_each_cell(surface, out.domain, [&](int i, int j, std::size_t cell) {
+    for_each_cell(surface, out.region.box, [&](int i, int j, std::size_t cell) {
         out.steps = out.steps || (surface.grid().flags[cell] & BURIN_CELL_FLAG_STEP) != 0;
         for (std::uint32_t k = surface.grid().first_ref[cell]; k < surface.grid().first_ref[cell + 1]; ++k) {
             const std::uint32_t element = surface.grid().refs[k];
             const Vec2 shift = image_of(surface, element, i, j);
-            if (strip_meets(elements[element], shift, out.domain)) out.instances.push_back({element, shift});
+            if (strip_meets(elements[element], shift, out.region)) out.instances.push_back({element, shift});
         }
     });
     const auto key = [](const Instance& a) { return std::tuple(a.element, a.shift.x, a.shift.y); };

@@ -15,10 +15,16 @@ struct Axes {
     double half_along = 0.0, half_across = 0.0;
 };
 
-void set_extent(const Box& domain, Axes& axes) {
-    const Vec2 half = (domain.high - domain.low) * 0.5;
-    axes.half_along = std::abs(axes.t.x) * half.x + std::abs(axes.t.y) * half.y;
-    axes.half_across = std::abs(axes.n.x) * half.x + std::abs(axes.n.y) * half.y;
+// The axes as they lie along t, from the middle of the region.
+void set_axes(const Region& region, Vec2 t, Axes& axes) {
+    axes.t = t;
+    axes.n = normal_of(t);
+    double low, high, left, right;
+    region.extent(axes.t, low, high);
+    region.extent(axes.n, left, right);
+    axes.origin = axes.t * (0.5 * (low + high)) + axes.n * (0.5 * (left + right));
+    axes.half_along = 0.5 * (high - low);
+    axes.half_across = 0.5 * (right - left);
 }
 
 // How far an end reaches back into the element.
@@ -37,7 +43,7 @@ class Crosser {
     Axes axes;
 
     bool cross_all() {
-        axes.origin = lerp(gathered_.domain.low, gathered_.domain.high, 0.5);
+        set_axes(gathered_.region, {1, 0}, axes);
         work_.crossed.clear();
         for (std::uint32_t i = 0; i < gathered_.instances.size(); ++i)
             if (!cross_one(i)) return false;
@@ -57,11 +63,7 @@ class Crosser {
         const Vec2 shift = gathered_.instances[i].shift;
         const double u = e.kind == ElementKind::line ? 0.0 : truth::find_foot(e, axes.origin - shift).parameter;
         const Vec2 t = truth::tangent_on(e, u);
-        if (i == 0) {
-            axes.t = t;
-            axes.n = normal_of(t);
-            set_extent(gathered_.domain, axes);
-        }
+        if (i == 0) set_axes(gathered_.region, t, axes);
         if (std::abs(cross(t, axes.t)) * axes.half_along > tolerance_) return false;
         if (e.kind == ElementKind::quadratic && !is_straight(e, u)) return false;
         Crossed crossed;
@@ -126,6 +128,11 @@ class Crosser {
 
     bool are_apart() const {
         const auto& list = work_.crossed;
+        if (!surface_.truth().prepared().steps.empty() && !list.empty()) {
+            // A groove that a step divides lies twice there, once for each level.
+            const Vec2 beside = axes.origin + axes.n * (list.front().low - 1e-6 * axes.half_across);
+            if (std::abs(ground_near(surface_, beside) - left_level(list.front())) > 1e-6 * surface_.pattern().depth) return false;
+        }
         for (std::size_t i = 0; i + 1 < list.size(); ++i) {
             if (list[i].high > list[i + 1].low + 1e-9 * axes.half_across) return false;
             if (std::abs(right_level(list[i]) - left_level(list[i + 1])) > 1e-6 * surface_.pattern().depth) return false;
@@ -251,7 +258,7 @@ double OffsetTable::below(double offset) const {
 bool sample_lines(const GroovedSurface& surface, const Gathered& gathered, const Footprint& footprint, const Slopes& slopes, double tolerance,
                   double whole, LineSampling& work, std::vector<Share>& out) {
     const Vec2 size = surface.pattern().size;
-    const Box& domain = gathered.domain;
+    const Box& domain = gathered.region.box;
     if (surface.pattern().wrap == Wrap::clamp && (domain.low.x < 0.0 || domain.low.y < 0.0 || domain.high.x > size.x || domain.high.y > size.y))
         return false;
     Crosser crosser(surface, gathered, tolerance, work);

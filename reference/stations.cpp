@@ -104,7 +104,7 @@ struct Divider {
         // The arc bulges by no more than half of what the control polygon does.
         const double bulge = e.kind == ElementKind::quadratic ? length(e.bend) * (b.u - a.u) * (b.u - a.u) : 0.0;
         const Vec2 margin{e.reach + bulge, e.reach + bulge};
-        return !meet({box.low - margin, box.high + margin}, options.near);
+        return !options.near->meets({box.low - margin, box.high + margin});
     }
     // How far the four corners of a facet from the path to `offset` are from flat, by half of what a plane through three misses.
     double twist(const Station& a, const Station& b, double offset) const {

@@ -39,7 +39,7 @@ struct Stations {
 };
 
 struct StationOptions {
-    Box near;                // elsewhere an element is not divided
+    const Region* near = nullptr;  // elsewhere an element is not divided
     double tolerance = 0.0;  // metres
     double deep = 0.0;       // greatest height or depth of the profile, metres
 };

@@ -54,7 +54,7 @@ class Sweeper {
         instance_ = index;
         element_ = &e;
         profile_ = &surface_.profiles()[e.profile];
-        StationOptions options{gathered_.domain, options_.tolerance, 0.0};
+        StationOptions options{&gathered_.region, options_.tolerance, 0.0};
         for (const ProfileFacet& facet : profile_->facets)
             options.deep = std::max({options.deep, std::abs(facet.h0), std::abs(facet.h1)});
         place_stations(e, surface_.pattern().elements[instance.element], instance.shift, options, stations_);
@@ -79,7 +79,7 @@ class Sweeper {
             include(box, at_a_[i]);
             include(box, at_b_[i]);
         }
-        if (!meet(box, gathered_.domain)) return;
+        if (!gathered_.region.meets(box)) return;
         for (const Slab& slab : profile_->slabs) sweep_slab(a, b, slab);
         for (const ProfileFacet& facet : profile_->facets) sweep_facet(a, b, facet);
         wall_sides(a, b);
@@ -151,7 +151,7 @@ class Sweeper {
     }
 
     void put_brush(const Brush& brush, double level) {
-        if (!meet(brush.box, gathered_.domain)) return;
+        if (!gathered_.region.meets(brush.box)) return;
         limit_to_zones(out_, brush, level);
     }
 
@@ -173,7 +173,7 @@ class Sweeper {
         }
         face.polygon = out_.points.close(from);
         face.normal = normal;
-        if (!meet(face.box, gathered_.domain)) return;
+        if (!gathered_.region.meets(face.box)) return;
         double low = 1e300, high = -1e300;
         for (int i = 0; i < count; ++i) {
             low = std::min(low, p[i].z);
@@ -222,7 +222,7 @@ class Sweeper {
         face.polygon = out_.points.close(from);
         const double sign = kind == FaceKind::cut ? -1.0 : 1.0;
         face.normal = {outward.x * sign, outward.y * sign, 0.0};
-        if (meet(face.box, gathered_.domain)) limit_to_zones(out_, face);
+        if (gathered_.region.meets(face.box)) limit_to_zones(out_, face);
     }
 
     void wall_of_facet(const ProfileFacet& facet, Vec2 p, double zp, Vec2 q, double zq, Vec2 outward) {
@@ -303,7 +303,7 @@ void sweep_grooves(const GroovedSurface& surface, const Gathered& gathered, cons
     out.zones.clear();
     out.brushes.clear();
     out.faces.clear();
-    const Vec2 extent = gathered.domain.high - gathered.domain.low;
+    const Vec2 extent = gathered.region.box.high - gathered.region.box.low;
     out.fine = 1e-9 * std::max({extent.x, extent.y, surface.pattern().depth});
     out.points.thin = out.plan.thin = 0.25 * out.fine;
     divide_zones(surface, gathered, options, out);

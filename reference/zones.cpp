@@ -55,7 +55,7 @@ void for_each_chord(const GroovedSurface& surface, const Gathered& gathered, con
         const Instance& instance = gathered.instances[i];
         const PreparedElement& e = surface.truth().prepared().elements[instance.element];
         if (!e.step) continue;
-        place_stations(e, surface.pattern().elements[instance.element], instance.shift, {gathered.domain, options.tolerance, 0.0}, stations);
+        place_stations(e, surface.pattern().elements[instance.element], instance.shift, {&gathered.region, options.tolerance, 0.0}, stations);
         for (std::size_t k = 0; k + 1 < stations.list.size(); ++k) {
             const Vec2 a = stations.list[k].origin, b = stations.list[k + 1].origin;
             if (length(b - a) > 0.0) visit(a, b, e, i);
@@ -124,7 +124,7 @@ bool acts_in(const LocalGeometry& out, const Zone& zone, double level) {
 }  // namespace
 
 void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
-    out.zones.push_back({polygon_of(out, gathered.domain), 0.0, {}, false});
+    out.zones.push_back({polygon_of(out, gathered.region.box), 0.0, {}, false});
     if (surface.pattern().wrap == Wrap::clamp) split_at_borders(surface, out);
     if (gathered.steps)
         for_each_chord(surface, gathered, options, [&](Vec2 a, Vec2 b, const PreparedElement&, std::uint32_t) {
@@ -222,7 +222,10 @@ void wall_border(LocalGeometry& out, const Face& face, const Zone& zone) {
 }  // namespace
 
 void limit_to_zones(LocalGeometry& out, const Face& face) {
-    if (out.zones.size() == 1 && !out.zones[0].outside) return out.faces.push_back(face);
+    if (out.zones.size() == 1) {
+        if (acts_in(out, out.zones[0], face.level)) out.faces.push_back(face);
+        return;
+    }
     for (const Zone& zone : out.zones) {
         if (!acts_in(out, zone, face.level) || !meet(zone.box, face.box)) continue;
         Face part = face;
