@@ -17,7 +17,7 @@ class Finder {
 
     void find(const Footprint& footprint, int halvings) {
         gather_grooves(surface_, footprint, slopes_, work_.gathered);
-        const double tolerance = options_.tolerance * std::sqrt(area_of(footprint));
+        const double tolerance = tolerance_for(footprint);
         if (work_.gathered.instances.empty() && is_plain()) return find_plain(footprint);
         if (options_.lines && sample_lines(surface_, work_.gathered, footprint, slopes_, tolerance, whole_, work_.line, out_)) {
             ++work_.by_line;
@@ -37,6 +37,12 @@ class Finder {
     }
 
   private:
+    // What hides and shades comes from afar where view or light are low: it may be coarser there.
+    double tolerance_for(const Footprint& footprint) const {
+        const Box& all = work_.gathered.region.box;
+        const double width = options_.width > 0.0 ? options_.width : std::sqrt(area_of(footprint));
+        return options_.tolerance * std::max(width, 0.02 * std::max(all.high.x - all.low.x, all.high.y - all.low.y));
+    }
     // Many elements, and fewer of them near a half: not where what matters is long for the sake of low view or light.
     bool is_worth_halving(const Footprint& footprint) const {
         if (static_cast<int>(work_.gathered.instances.size()) <= options_.most_elements) return false;

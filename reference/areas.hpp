@@ -20,7 +20,8 @@
 namespace burin::reference {
 
 struct AreasOptions {
-    double tolerance = 0.004;  // of the footprint's radius: how far bent grooves may lie from the straight pieces that stand for them
+    double tolerance = 0.004;  // of the footprint's width: how far bent grooves may lie from the straight pieces that stand for them
+    double width = 0.0;        // of the pixel that the footprint is a part of, metres; 0: the root of the footprint's area
     int most_elements = 24;    // more near a footprint: it is divided
     bool lines = true;         // false: area sampling everywhere, for tests
 };

@@ -59,7 +59,7 @@ void Carver::keep_first_wall(const Face& face) {
 }
 
 void Carver::keep(Polygon p) {
-    if (p) work_.kept.push_back(p);
+    if (p) work_.kept.push_back(part_of(p));
 }
 
 bool Carver::overhangs(std::uint32_t instance) const {
@@ -86,19 +86,19 @@ void Carver::keep_solid(const Face& face) {
     geometry_.points.split(face.polygon, HalfSpace{{0, 0, 1}, face.level - geometry_.fine}, below, above);
     keep(below);
     if (!above) return;
-    work_.solid.assign(1, above);
+    work_.solid.assign(1, part_of(above));
     for (std::size_t b = 0; b < geometry_.brushes.size() && !work_.solid.empty(); ++b) {
         const Brush& brush = geometry_.brushes[b];
         if (brush.cut || !meet(brush.box, face.box) || (brush.instance == face.instance && !face.wall)) continue;
         work_.next.clear();
-        for (const Polygon p : work_.solid) keep(subtract(face, p, b, -geometry_.fine));
+        for (const Part& p : work_.solid) keep(subtract(face, p, b, -geometry_.fine));
         work_.solid.swap(work_.next);
     }
 }
 
 void Carver::remove(const Face& face, std::size_t brush, double grow) {
     work_.next.clear();
-    for (const Polygon p : work_.kept) subtract(face, p, brush, grow);
+    for (const Part& p : work_.kept) subtract(face, p, brush, grow);
     work_.kept.swap(work_.next);
 }
 
@@ -110,8 +110,12 @@ Vec2 Carver::judged_at(const Face& face, const Brush& brush) const {
 }
 
 // Adds what lies outside of the brush to work_.next; returns what lies inside. `grow`: by how much its top and bottom are moved outwards.
-Polygon Carver::subtract(const Face& face, Polygon p, std::size_t index, double grow) {
+Polygon Carver::subtract(const Face& face, const Part& part, std::size_t index, double grow) {
     const Brush& brush = geometry_.brushes[index];
+    if (!meet(part.box, brush.box)) {
+        work_.next.push_back(part);
+        return {};
+    }
     const std::uint32_t first = work_.first_half[index], last = work_.first_half[index + 1];
     const std::uint32_t sides = last - brush.polygon.count;
     const Vec2 moved = judged_at(face, brush);
@@ -121,18 +125,24 @@ Polygon Carver::subtract(const Face& face, Polygon p, std::size_t index, double 
         return half;
     };
     for (std::uint32_t k = first; k < last; ++k)
-        if (all_beyond(p, half_of(k))) {
-            work_.next.push_back(p);
+        if (all_beyond(part.polygon, half_of(k))) {
+            work_.next.push_back(part);
             return {};
         }
-    Polygon rest = p;
+    Polygon rest = part.polygon;
     for (std::uint32_t k = first; k < last && rest; ++k) {
         Polygon inside, outside;
         geometry_.points.split(rest, half_of(k), inside, outside);
-        if (outside) work_.next.push_back(outside);
+        if (outside) work_.next.push_back(part_of(outside));
         rest = inside;
     }
     return rest;
+}
+
+Part Carver::part_of(Polygon p) const {
+    Part part{p, {}};
+    for (const Vec3* q = geometry_.points.begin(p); q != geometry_.points.end(p); ++q) include(part.box, plan(*q));
+    return part;
 }
 
 bool Carver::all_beyond(Polygon p, const HalfSpace& half) const {

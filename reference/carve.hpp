@@ -11,17 +11,23 @@
 
 namespace burin::reference {
 
+// A part of a face, and its box in plan.
+struct Part {
+    Polygon polygon;  // in LocalGeometry::points
+    Box box;
+};
+
 // Memory of one thread, used again and again.
 struct Carving {
     struct Pieces {
         std::uint32_t first = 0, count = 0;
         bool carved = false;
     };
-    std::vector<Polygon> pieces;            // in LocalGeometry::points
+    std::vector<Part> pieces;
     std::vector<Pieces> of_face;
     std::vector<HalfSpace> halves;          // of all brushes
     std::vector<std::uint32_t> first_half;  // of each brush, and one past the last
-    std::vector<Polygon> kept, next, solid;
+    std::vector<Part> kept, next, solid;
 };
 
 // Carves a face when it is first asked for: most are neither seen nor throw a shadow. All must outlive it.
@@ -33,7 +39,7 @@ class Carver {
     const Gathered& gathered() const { return gathered_; }
     // What is left of a face, as a range of Carving::pieces. Cost: the brushes whose boxes meet its own.
     Carving::Pieces pieces_of(std::uint32_t face);
-    Polygon piece(std::uint32_t index) const { return work_.pieces[index]; }
+    Polygon piece(std::uint32_t index) const { return work_.pieces[index].polygon; }
 
   private:
     void carve(const Face& face);
@@ -45,8 +51,9 @@ class Carver {
     void keep_solid(const Face& face);
     void remove(const Face& face, std::size_t brush, double grow);
     Vec2 judged_at(const Face& face, const Brush& brush) const;
-    Polygon subtract(const Face& face, Polygon p, std::size_t index, double grow);
+    Polygon subtract(const Face& face, const Part& part, std::size_t index, double grow);
     bool all_beyond(Polygon p, const HalfSpace& half) const;
+    Part part_of(Polygon p) const;
 
     LocalGeometry& geometry_;
     const GroovedSurface& surface_;

@@ -22,7 +22,7 @@
 namespace burin::reference {
 namespace {
 
-constexpr double kMostSlope = 40.0;
+constexpr double kMostSlope = 20.0;  // 2.9 degrees
 
 // What the fragment of a triangle needs besides its footprint.
 struct Place {
@@ -126,6 +126,7 @@ class Renderer {
         const Slopes slopes = slopes_of(to_pattern, place);
         AreasOptions areas;
         areas.tolerance = options_.tolerance;
+        areas.width = std::sqrt(area_of(work.footprint) / area_of(work.coverage.plane, part.polygon));
         find_areas(surface, work.footprint, slopes, areas, work.areas, work.shares);
         ++work.stats.footprints;
         glm::dvec3 sum(0.0);

@@ -37,8 +37,7 @@ struct ReferencePicture {
     RgbaImage image() const;  // sRGB
 };
 
-// A view or light lower than about a degree and a half over the mesh counts as one of a degree and a half: farther along the surface
-// nothing is flat. Pattern rays do not bend with a round mesh, nor cross the seams of its uvs, within a pixel's reach ([2008] 9).
+// A view or light lower than 2.9 degrees over the mesh counts as one of 2.9 degrees: farther along the surface nothing is flat. Pattern rays do not bend with a round mesh, nor cross the seams of its uvs, within a pixel's reach ([2008] 9).
 // Fails as render_asset does; unsupported: an environment; invalid_input: textures that break a rule of the format. Cost: some 2 us per
 // pixel on smooth grooves, 10 to 50 where they meet.
 Result<ReferencePicture> render_reference(const Asset& asset, const ReferenceOptions& options = {});

@@ -8,10 +8,17 @@
 namespace burin::reference {
 namespace {
 
-Polygon polygon_of(LocalGeometry& out, const Box& box) {
+// The region's box without the corners that low view and light leave far from it.
+Polygon polygon_of(LocalGeometry& out, const Region& region) {
+    const Box& box = region.box;
     const std::uint32_t from = out.plan.mark();
     for (const Vec2 corner : {box.low, Vec2{box.high.x, box.low.y}, box.high, Vec2{box.low.x, box.high.y}}) out.plan.add(corner);
-    return out.plan.close(from);
+    Polygon p = out.plan.close(from);
+    for (const Region::Slab& slab : region.slabs) {
+        p = out.plan.clip(p, HalfPlane{slab.n, slab.high});
+        p = out.plan.clip(p, HalfPlane{-slab.n, -slab.low});
+    }
+    return p;
 }
 
 Polygon overlap(Polygons<Vec2>& pool, Polygon p, Polygon q) {
@@ -20,11 +27,11 @@ Polygon overlap(Polygons<Vec2>& pool, Polygon p, Polygon q) {
 }
 
 // The part of the way from a to b that runs through the inside of the polygon, from 0 to 1.
-struct Part {
+struct Stretch {
     double low = 0.0, high = 1.0;
 };
-Part part_inside(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b) {
-    Part part;
+Stretch stretch_inside(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b) {
+    Stretch part;
     for (std::uint32_t i = 0; i < p.count; ++i) {
         const HalfPlane edge = edge_of(out.plan, p, i);
         const double at_a = beyond(edge, a) + out.fine, at_b = beyond(edge, b) + out.fine;
@@ -38,7 +45,7 @@ Part part_inside(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b) {
 void split_zones(LocalGeometry& out, const HalfPlane& line, Vec2 a, Vec2 b) {
     const std::size_t count = out.zones.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (const Part part = part_inside(out, out.zones[i].polygon, a, b); part.low >= part.high) continue;
+        if (const Stretch part = stretch_inside(out, out.zones[i].polygon, a, b); part.low >= part.high) continue;
         Polygon inside, outside;
         out.plan.split(out.zones[i].polygon, line, inside, outside);
         if (!inside || !outside) continue;
@@ -124,7 +131,7 @@ bool acts_in(const LocalGeometry& out, const Zone& zone, double level) {
 }  // namespace
 
 void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
-    out.zones.push_back({polygon_of(out, gathered.region.box), 0.0, {}, false});
+    out.zones.push_back({polygon_of(out, gathered.region), 0.0, {}, false});
     if (surface.pattern().wrap == Wrap::clamp) split_at_borders(surface, out);
     if (gathered.steps)
         for_each_chord(surface, gathered, options, [&](Vec2 a, Vec2 b, const PreparedElement&, std::uint32_t) {
@@ -212,7 +219,7 @@ void wall_border(LocalGeometry& out, const Face& face, const Zone& zone) {
             if (length(plan(b) - plan(a)) <= out.fine) continue;
             for (const Zone& other : out.zones) {
                 if (acts_in(out, other, face.level)) continue;
-                const Part part = part_inside(out, other.polygon, plan(a) + off, plan(b) + off);
+                const Stretch part = stretch_inside(out, other.polygon, plan(a) + off, plan(b) + off);
                 if (part.low < part.high) wall_edge(out, face, a + (b - a) * part.low, a + (b - a) * part.high, edge.n, other.level, far);
             }
         }
