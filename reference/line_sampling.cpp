@@ -229,7 +229,21 @@ double seen_part(const Segment& s, double slope, double top, double from, double
     return table.below(low + (high - low) * to) - table.below(low + (high - low) * from);
 }
 
-void add_share(const Segment& s, const Gathered& gathered, const Axes& axes, double seen, double lit, std::vector<Share>& out) {
+// Middle of the footprint and slope of the view along the grooves, and what of an offset the footprint holds.
+struct Along {
+    double middle, slope, top;
+    double across, low, high;  // slope of the view across, and the footprint's extent
+};
+
+// The middle of what is seen of a segment, from 0 to 1 along it.
+double middle_seen(const Segment& s, const Along& along) {
+    const double first = s.x0 - along.across * (along.top - s.z0), last = s.x1 - along.across * (along.top - s.z1);
+    if (!(last > first)) return 0.5 * (s.seen0 + s.seen1);
+    const double low = std::max(s.seen0, (along.low - first) / (last - first)), high = std::min(s.seen1, (along.high - first) / (last - first));
+    return 0.5 * (low + high);
+}
+
+void add_share(const Segment& s, const Gathered& gathered, const Axes& axes, const Along& along, double seen, double lit, std::vector<Share>& out) {
     Share share;
     share.element = s.instance == kGround ? kGround : gathered.instances[s.instance].element;
     share.facet = s.facet;
@@ -237,8 +251,9 @@ void add_share(const Segment& s, const Gathered& gathered, const Axes& axes, dou
     share.normal = {-axes.n.x * rise * scale, -axes.n.y * rise * scale, run * scale};
     share.seen = seen;
     share.lit = lit;
-    const double middle = 0.5 * (s.seen0 + s.seen1), x = s.x0 + run * middle;
-    share.place = {axes.origin.x + axes.n.x * x, axes.origin.y + axes.n.y * x, s.z0 + rise * middle};
+    const double middle = middle_seen(s, along), x = s.x0 + run * middle, z = s.z0 + rise * middle;
+    const Vec2 at = axes.origin + axes.n * x + axes.t * (along.middle + along.slope * (along.top - z));
+    share.place = {at.x, at.y, z};
     out.push_back(share);
 }
 
@@ -269,12 +284,14 @@ bool sample_lines(const GroovedSurface& surface, const Gathered& gathered, const
     find_reached(work.segments, view, top, [](Segment& s, double from, double to) { s.seen0 = from, s.seen1 = to; });
     if (slopes.lit) find_reached(work.segments, light, top, [](Segment& s, double from, double to) { s.lit0 = from, s.lit1 = to; });
     fill_table(footprint, axes, work.table);
+    const Along along{dot(middle_of(footprint) - axes.origin, axes.t), dot(slopes.view, axes.t), top,
+                      view, work.table.entries.front().offset, work.table.entries.back().offset};
     for (const Segment& s : work.segments) {
         if (s.seen0 >= s.seen1) continue;
         const double seen = seen_part(s, view, top, s.seen0, s.seen1, work.table) / whole;
         if (!(seen > 0.0)) continue;
         const double from = std::max(s.seen0, s.lit0), to = std::min(s.seen1, s.lit1);
-        add_share(s, gathered, axes, seen, from < to ? seen_part(s, view, top, from, to, work.table) / whole : 0.0, out);
+        add_share(s, gathered, axes, along, seen, from < to ? seen_part(s, view, top, from, to, work.table) / whole : 0.0, out);
     }
     return true;
 }

@@ -1,5 +1,6 @@
 #include "truth_shares.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -122,6 +123,14 @@ const char* name_of(GrooveCase which) {
     constexpr const char* kNames[kGrooveCases] = {"isolated", "parallel", "crossing", "intersected end", "isolated end", "corner", "protruding", "two at once"};
     return kNames[int(which)];
 }
+
+std::string identifier_of(GrooveCase which) {
+    std::string name = name_of(which);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+}
+
+reference::GroovedSurface grooved(const ResolvedPattern& pattern) { return reference::GroovedSurface(pattern, *build_grid(pattern)); }
 
 ResolvedPattern make_case(GrooveCase which, std::uint64_t seed) {
     Maker maker(seed);

@@ -12,6 +12,9 @@
 
 namespace burin::testing {
 
+// Requires: a pattern that a grid can hold.
+reference::GroovedSurface grooved(const ResolvedPattern& pattern);
+
 // A footprint, seen and lit from 5 to 90 degrees.
 struct Situation {
     reference::Footprint footprint;
@@ -37,6 +40,7 @@ ShareError compare_shares(const Shares& a, const Shares& b);
 enum class GrooveCase { isolated, parallel, crossing, intersected_end, isolated_end, corner, protruding, two_at_once };
 inline constexpr int kGrooveCases = 8;
 const char* name_of(GrooveCase which);
+std::string identifier_of(GrooveCase which);  // the same without spaces
 
 // A pattern of some ten centimetres with the case near its middle, (0.05, 0.05); features about 4 mm wide, 1 to 3 mm deep.
 ResolvedPattern make_case(GrooveCase which, std::uint64_t seed);
