@@ -135,7 +135,9 @@ class Renderer {
             sum += share_color(primitive, surface, share, to_pattern, place, slopes.lit) * share.seen;
             seen += share.seen;
         }
-        work.stats.worst_sum = std::max(work.stats.worst_sum, std::abs(seen - 1.0));
+        const double off = std::abs(seen - 1.0) * area_of(work.coverage.plane, part.polygon);
+        work.stats.worst_sum = std::max(work.stats.worst_sum, off);
+        work.stats.mean_sum += off;
         return seen > 0.0 ? sum / seen : background_;
     }
 
@@ -252,6 +254,7 @@ Result<ReferencePicture> render_reference(const Asset& asset, const ReferenceOpt
         picture.stats.by_line += one.by_line;
         picture.stats.by_area += one.by_area;
         picture.stats.worst_sum = std::max(picture.stats.worst_sum, one.worst_sum);
+        picture.stats.mean_sum += one.mean_sum / (double(picture.width) * picture.height);
     }
     return picture;
 }

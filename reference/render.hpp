@@ -27,7 +27,7 @@ struct ReferenceOptions {
 struct ReferenceStats {
     long footprints = 0;        // parts of pixels that show a pattern
     long by_line = 0, by_area = 0;  // of these, or of their parts: by a cross-section, by polygons
-    double worst_sum = 0.0;     // how far the shares of a footprint were from 1
+    double worst_sum = 0.0, mean_sum = 0.0;  // how far the shares of a pixel's facets were from its own part of the pixel
 };
 
 struct ReferencePicture {

@@ -228,10 +228,17 @@ class Sweeper {
     void wall_of_facet(const ProfileFacet& facet, Vec2 p, double zp, Vec2 q, double zq, Vec2 outward) {
         if (length(q - p) <= out_.fine) return;
         const double level = ground(facet.from, facet.to);
-        // Where the ground changes just there, the border of the zone has the wall.
-        if (!acts_there(out_, lerp(p, q, 0.5) + outward * (64.0 * out_.fine), level)) return;
-        if (facet.internal) put_wall(FaceKind::cut, p, zp, q, zq, outward, level);
-        if (std::max(zp, zq) > level + out_.fine) put_wall(FaceKind::add, p, zp, q, zq, outward, level);
+        const Vec2 off = outward * (64.0 * out_.fine);
+        for (std::size_t i = 0; i < out_.zones.size(); ++i) {
+            // Where the ground changes just there, the border of the zone has the wall.
+            if (!acts_in(out_, out_.zones[i], level)) continue;
+            const Stretch part = stretch_inside(out_, out_.zones[i].polygon, p + off, q + off);
+            if (part.low >= part.high) continue;
+            const Vec2 a = lerp(p, q, part.low), b = lerp(p, q, part.high);
+            const double za = zp + (zq - zp) * part.low, zb = zp + (zq - zp) * part.high;
+            if (facet.internal) put_wall(FaceKind::cut, a, za, b, zb, outward, level);
+            if (std::max(za, zb) > level + out_.fine) put_wall(FaceKind::add, a, za, b, zb, outward, level);
+        }
     }
 
     // Where an end is open, across the path; and between the halves of a cap.

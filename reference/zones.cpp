@@ -6,6 +6,18 @@
 #include "stations.hpp"
 
 namespace burin::reference {
+Stretch stretch_inside(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b) {
+    Stretch part;
+    for (std::uint32_t i = 0; i < p.count; ++i) {
+        const HalfPlane edge = edge_of(out.plan, p, i);
+        const double at_a = beyond(edge, a) + out.fine, at_b = beyond(edge, b) + out.fine;
+        if (at_a >= 0.0 && at_b >= 0.0) return {1.0, 0.0};
+        if (at_a > 0.0) part.low = std::max(part.low, at_a / (at_a - at_b));
+        if (at_b > 0.0) part.high = std::min(part.high, at_a / (at_a - at_b));
+    }
+    return part;
+}
+
 namespace {
 
 // The region's box without the corners that low view and light leave far from it.
@@ -24,22 +36,6 @@ Polygon polygon_of(LocalGeometry& out, const Region& region) {
 Polygon overlap(Polygons<Vec2>& pool, Polygon p, Polygon q) {
     for (std::uint32_t i = 0; p && i < q.count; ++i) p = pool.clip(p, edge_of(pool, q, i));
     return is_solid(pool, p) ? p : Polygon{};
-}
-
-// The part of the way from a to b that runs through the inside of the polygon, from 0 to 1.
-struct Stretch {
-    double low = 0.0, high = 1.0;
-};
-Stretch stretch_inside(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b) {
-    Stretch part;
-    for (std::uint32_t i = 0; i < p.count; ++i) {
-        const HalfPlane edge = edge_of(out.plan, p, i);
-        const double at_a = beyond(edge, a) + out.fine, at_b = beyond(edge, b) + out.fine;
-        if (at_a >= 0.0 && at_b >= 0.0) return {1.0, 0.0};
-        if (at_a > 0.0) part.low = std::max(part.low, at_a / (at_a - at_b));
-        if (at_b > 0.0) part.high = std::min(part.high, at_a / (at_a - at_b));
-    }
-    return part;
 }
 
 void split_zones(LocalGeometry& out, const HalfPlane& line, Vec2 a, Vec2 b) {
@@ -123,11 +119,6 @@ void put_step_wall(const GroovedSurface& surface, Vec2 a, Vec2 b, const Prepared
     out.faces.push_back(face);
 }
 
-// Whether what belongs to ground of that level acts in the zone.
-bool acts_in(const LocalGeometry& out, const Zone& zone, double level) {
-    return !zone.outside && std::abs(zone.level - level) <= 16.0 * out.fine;
-}
-
 }  // namespace
 
 void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
@@ -151,13 +142,8 @@ void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const
         });
 }
 
-bool acts_there(const LocalGeometry& out, Vec2 p, double level) {
-    for (const Zone& zone : out.zones) {
-        bool inside = true;
-        for (std::uint32_t i = 0; inside && i < zone.polygon.count; ++i) inside = beyond(edge_of(out.plan, zone.polygon, i), p) <= 0.0;
-        if (inside) return acts_in(out, zone, level);
-    }
-    return true;
+bool acts_in(const LocalGeometry& out, const Zone& zone, double level) {
+    return !zone.outside && std::abs(zone.level - level) <= 16.0 * out.fine;
 }
 
 void limit_to_zones(LocalGeometry& out, const Brush& brush, double level) {

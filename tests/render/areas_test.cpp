@@ -13,6 +13,7 @@
 #include "../../samples/write_scene.hpp"
 #include "../judge/context.hpp"
 #include "../judge/judge.hpp"
+#include "part_asset.hpp"
 
 namespace burin::testing {
 namespace {
@@ -29,22 +30,6 @@ constexpr Look kLooks[] = {
     {"overhang", 6.0, 60.0, {0.4, 0.45}}, {"overhang", 2.0, 25.0, {0.5, 0.5}},       {"letters", 6.0, 60.0, {0.4, 0.45}},
     {"letters", 16.0, 75.0, {0.55, 0.6}}, {"sunken_square", 6.0, 60.0, {0.4, 0.45}},
 };
-
-Asset asset_of(const scenes::Part& part) {
-    auto prepared = prepare_pattern(part.pattern, {});
-    EXPECT_TRUE(prepared.ok());
-    MaterialInfo material = scenes::material_of(part);
-    put_pattern(*prepared, material);
-    Primitive primitive;
-    primitive.positions = part.mesh.positions;
-    primitive.normals = part.mesh.normals;
-    primitive.uvs = part.mesh.uvs;
-    primitive.indices = part.mesh.indices;
-    Asset asset;
-    asset.materials.push_back(std::move(material));
-    asset.primitives.push_back(std::move(primitive));
-    return asset;
-}
 
 RenderOptions options_from(const Camera& camera) {
     RenderOptions options;
