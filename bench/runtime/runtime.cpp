@@ -49,7 +49,7 @@ struct Question {
 };
 constexpr Question kQuestions[] = {{"hits", ask_hits},     {"holes", ask_holes},   {"pictures", ask_pictures}, {"memory", ask_memory},
                                     {"flicker", ask_flicker}, {"energy", ask_energy}, {"work", ask_work},
-                                    {"features", ask_features}, {"grid", ask_grid}};
+                                    {"features", ask_features}, {"grid", ask_grid}, {"reference", ask_reference}};
 
 int usage(const std::string& word) {
     std::fprintf(stderr, "bench_runtime: error: '%s' is no question or option; questions:", word.c_str());
