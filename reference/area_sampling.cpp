@@ -5,50 +5,32 @@
 namespace burin::reference {
 namespace {
 
-// Parallel rays that fall along `slope` and are known by where they pass the height `top`.
-struct Direction {
-    Vec2 slope;
-    double top;
-
-    Vec2 show(Vec3 p) const { return plan(p) - slope * (top - p.z); }
-    // How much a face turns towards where the rays come from; below 0: away.
-    double facing(const Face& face) const { return face.normal.z - dot(plan(face.normal), slope); }
-    // Height at which the ray through q meets the face's plane.
-    double height(const Face& face, Vec3 corner, Vec2 q) const {
-        return (dot(face.normal, corner) - dot(plan(face.normal), q + slope * top)) / facing(face);
-    }
-    Vec3 meet(const Face& face, Vec3 corner, Vec2 q) const {
-        const double z = height(face, corner, q);
-        const Vec2 p = q + slope * (top - z);
-        return {p.x, p.y, z};
-    }
-};
-
 constexpr double kEdgeOn = 1e-9;
 
 class Sampler {
   public:
-    Sampler(Carver& carver, const Slopes& slopes, double top, AreaSampling& work)
-        : carver_(carver), geometry_(carver.geometry()), slopes_(slopes), eye_{slopes.view, top}, lamp_{slopes.light, top}, work_(work) {
+    Sampler(Carver& carver, const AreaRequest& request, AreaSampling& work)
+        : carver_(carver), geometry_(carver.geometry()), request_(request), slopes_(request.slopes), eye_(request.direction),
+          lamp_{request.slopes.light, request.direction.top, false}, work_(work) {
         work_.plane.clear();
         work_.plane.thin = geometry_.points.thin;
     }
 
-    void show_faces(const Footprint& footprint) {
+    void show_faces() {
         work_.front.clear();
         work_.hiding.clear();
         const std::uint32_t from = work_.plane.mark();
         Box box;
-        for (const Vec2 p : footprint.corners) {
+        for (const Vec2 p : request_.footprint->corners) {
             work_.plane.add(p);
             include(box, p);
         }
         const Polygon whole = work_.plane.close(from);
         for_each_shown(box, eye_, [&](Shown shown) {
-            const double facing = eye_.facing(geometry_.faces[shown.face]);
+            const double facing = eye_.facing(geometry_.faces[shown.face].normal);
             for (std::uint32_t i = 0; shown.polygon && i < whole.count; ++i)
                 shown.polygon = work_.plane.clip(shown.polygon, edge_of(work_.plane, whole, i));
-            if (!is_solid(work_.plane, shown.polygon)) return;
+            if (!is_solid(work_.plane, shown.polygon) || !lies_before(shown)) return;
             shown.box = box_of(work_.plane, shown.polygon);
             (facing > 0.0 ? work_.front : work_.hiding).push_back(shown);
         });
@@ -70,22 +52,22 @@ class Sampler {
         Box box;
         for (const Shown& seen : work_.seen) {
             const Face& face = geometry_.faces[seen.face];
-            if (lamp_.facing(face) <= kEdgeOn) continue;
+            if (lamp_.facing(face.normal) <= kEdgeOn) continue;
             for (const Vec2* q = work_.plane.begin(seen.polygon); q != work_.plane.end(seen.polygon); ++q)
-                include(box, lamp_.show(eye_.meet(face, corner_of(face), *q)));
+                include(box, lamp_.show(eye_.meet(face.normal, corner_of(face), *q)));
         }
         for_each_shown(box, lamp_, [&](const Shown& shown) {
-            if (lamp_.facing(geometry_.faces[shown.face]) < 0.0) work_.shading.push_back(shown);
+            if (lamp_.facing(geometry_.faces[shown.face].normal) < 0.0) work_.shading.push_back(shown);
         });
     }
 
     // Share of what is seen that the light reaches.
     double lit_part(const Shown& seen) {
         const Face& face = geometry_.faces[seen.face];
-        if (!slopes_.lit || lamp_.facing(face) <= kEdgeOn) return 0.0;
+        if (!slopes_.lit || lamp_.facing(face.normal) <= kEdgeOn) return 0.0;
         const std::uint32_t from = work_.plane.mark();
         for (std::uint32_t i = 0; i < seen.polygon.count; ++i)
-            work_.plane.add(lamp_.show(eye_.meet(face, corner_of(face), work_.plane(seen.polygon, i))));
+            work_.plane.add(lamp_.show(eye_.meet(face.normal, corner_of(face), work_.plane(seen.polygon, i))));
         Shown lit{seen.face, work_.plane.close(from), {}};
         const double whole = std::abs(orient(lit));
         if (whole <= 0.0) return 0.0;
@@ -100,11 +82,28 @@ class Sampler {
 
     Vec3 place_of(const Shown& seen) const {
         const Face& face = geometry_.faces[seen.face];
-        return eye_.meet(face, corner_of(face), burin::reference::middle_of(work_.plane, seen.polygon));
+        return eye_.meet(face.normal, corner_of(face), burin::reference::middle_of(work_.plane, seen.polygon));
+    }
+
+    void keep_corners(const Shown& seen, Share& share) {
+        const Face& face = geometry_.faces[seen.face];
+        share.first_corner = static_cast<std::uint32_t>(work_.corners.size());
+        share.corners = seen.polygon.count;
+        for (std::uint32_t i = 0; i < seen.polygon.count; ++i)
+            work_.corners.push_back(eye_.meet(face.normal, corner_of(face), work_.plane(seen.polygon, i)));
     }
 
   private:
     Vec3 corner_of(const Face& face) const { return geometry_.points(face.polygon, 0); }
+
+    // Whether the rays of a beam come to it after they left.
+    bool lies_before(const Shown& shown) const {
+        if (!request_.leaves) return true;
+        const Face& face = geometry_.faces[shown.face];
+        const Vec2 q = burin::reference::middle_of(work_.plane, shown.polygon);
+        const double rise = eye_.meet(face.normal, corner_of(face), q).z - eye_.meet(request_.normal, request_.corner, q).z;
+        return (eye_.rising ? rise : -rise) > 64.0 * geometry_.fine;
+    }
 
     // Turns the polygon so that it goes from x towards y; its area.
     double orient(Shown& shown) {
@@ -121,7 +120,7 @@ class Sampler {
     void for_each_shown(const Box& box, const Direction& direction, const Use& use) {
         for (std::uint32_t i = 0; i < geometry_.faces.size(); ++i) {
             const Face& face = geometry_.faces[i];
-            if (std::abs(direction.facing(face)) < kEdgeOn) continue;
+            if (std::abs(direction.facing(face.normal)) < kEdgeOn) continue;
             Box whole;
             for (const Vec3* p = geometry_.points.begin(face.polygon); p != geometry_.points.end(face.polygon); ++p) include(whole, direction.show(*p));
             if (!meet(whole, box)) continue;
@@ -166,11 +165,13 @@ class Sampler {
 
     bool nearer(std::uint32_t a, std::uint32_t b, Vec2 q, const Direction& direction) const {
         const Face &first = geometry_.faces[a], &second = geometry_.faces[b];
-        return direction.height(first, corner_of(first), q) > direction.height(second, corner_of(second), q);
+        const double rise = direction.meet(first.normal, corner_of(first), q).z - direction.meet(second.normal, corner_of(second), q).z;
+        return direction.rising ? rise < 0.0 : rise > 0.0;
     }
 
     Carver& carver_;
     const LocalGeometry& geometry_;
+    const AreaRequest& request_;
     const Slopes& slopes_;
     Direction eye_, lamp_;
     AreaSampling& work_;
@@ -186,24 +187,25 @@ Share share_of(const Face& face, const Gathered& gathered) {
 
 }  // namespace
 
-void sample_areas(Carver& carver, const Footprint& footprint, double top, const Slopes& slopes, double whole, AreaSampling& work,
-                  std::vector<Share>& out) {
-    Sampler sampler(carver, slopes, top, work);
-    sampler.show_faces(footprint);
+void sample_areas(Carver& carver, const AreaRequest& request, AreaSampling& work, std::vector<Share>& out) {
+    Sampler sampler(carver, request, work);
+    sampler.show_faces();
     sampler.hide();
     sampler.show_shading();
     for (std::size_t i = 0; i < work.seen.size();) {
         const std::uint32_t index = work.seen[i].face;
         Share share = share_of(carver.geometry().faces[index], carver.gathered());
         Vec3 places;
-        for (; i < work.seen.size() && work.seen[i].face == index; ++i) {
-            const double seen = area_of(work.plane, work.seen[i].polygon) / whole;
+        const std::size_t first = i;
+        for (; i < work.seen.size() && work.seen[i].face == index && (i == first || !request.corners); ++i) {
+            const double seen = area_of(work.plane, work.seen[i].polygon) / request.whole;
             share.seen += seen;
             share.lit += seen * sampler.lit_part(work.seen[i]);
             places = places + sampler.place_of(work.seen[i]) * seen;
         }
         if (!(share.seen > 0.0)) continue;
         share.place = places * (1.0 / share.seen);
+        if (request.corners) sampler.keep_corners(work.seen[first], share);
         out.push_back(share);
     }
 }

@@ -25,11 +25,40 @@ struct AreaSampling {
     Polygons<Vec2> plane;
     std::vector<Shown> front, hiding, shading, seen;
     std::vector<Polygon> kept, next;
+    std::vector<Vec3> corners;  // of shares
 };
 
-// Adds to `out` one share for each face that is seen, as parts of `whole`, an area. Requires: a carver of all that was gathered
-// for this footprint. `top`: where footprints lie.
-void sample_areas(Carver& carver, const Footprint& footprint, double top, const Slopes& slopes, double whole, AreaSampling& work,
-                  std::vector<Share>& out);
+// Rays that fall along a slope, or rise against it, and are known by where they pass the height `top`.
+struct Direction {
+    Vec2 slope;
+    double top = 0.0;
+    bool rising = false;
+
+    Vec2 show(Vec3 p) const { return plan(p) - slope * (top - p.z); }
+    double lean(Vec3 normal) const { return normal.z - dot(plan(normal), slope); }
+    // How much a face turns towards where the rays come from; below 0: away.
+    double facing(Vec3 normal) const { return rising ? -lean(normal) : lean(normal); }
+    // Where the ray through q meets the plane through `corner`.
+    Vec3 meet(Vec3 normal, Vec3 corner, Vec2 q) const {
+        const double z = (dot(normal, corner) - dot(plan(normal), q + slope * top)) / lean(normal);
+        const Vec2 p = q + slope * (top - z);
+        return {p.x, p.y, z};
+    }
+};
+
+struct AreaRequest {
+    const Footprint* footprint = nullptr;  // in the plane of the direction; convex, from x towards y
+    Direction direction;
+    Slopes slopes;       // the light
+    double whole = 1.0;  // area that shares are parts of
+    bool corners = false;
+    // The facet that rays leave, of a beam: what lies behind it is not met.
+    bool leaves = false;
+    Vec3 normal, corner;
+};
+
+// Adds to `out` one share for each face that is seen, or with `corners` for each part of one. Requires: a carver of all that was
+// gathered for this request.
+void sample_areas(Carver& carver, const AreaRequest& request, AreaSampling& work, std::vector<Share>& out);
 
 }  // namespace burin::reference

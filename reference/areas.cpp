@@ -10,6 +10,11 @@ namespace {
 
 constexpr int kMostHalvings = 16;
 
+// What hides and shades comes from afar where view or light are low: it may be coarser there.
+double tolerance_in(const Region& region, const AreasOptions& options, double width) {
+    return options.tolerance * std::max(width, 0.02 * std::max(region.box.high.x - region.box.low.x, region.box.high.y - region.box.low.y));
+}
+
 class Finder {
   public:
     Finder(const GroovedSurface& surface, const Slopes& slopes, const AreasOptions& options, double whole, AreasWork& work, std::vector<Share>& out)
@@ -18,8 +23,8 @@ class Finder {
     void find(const Footprint& footprint, int halvings) {
         gather_grooves(surface_, footprint, slopes_, work_.gathered);
         const double tolerance = tolerance_for(footprint);
-        if (work_.gathered.instances.empty() && is_plain()) return find_plain(footprint);
-        if (options_.lines && sample_lines(surface_, work_.gathered, footprint, slopes_, tolerance, whole_, work_.line, out_)) {
+        if (!options_.corners && work_.gathered.instances.empty() && is_plain()) return find_plain(footprint);
+        if (options_.lines && !options_.corners && sample_lines(surface_, work_.gathered, footprint, slopes_, tolerance, whole_, work_.line, out_)) {
             ++work_.by_line;
             return;
         }
@@ -33,15 +38,18 @@ class Finder {
         ++work_.by_area;
         sweep_grooves(surface_, work_.gathered, {tolerance}, work_.geometry);
         Carver carver(work_.geometry, surface_, work_.gathered, work_.carving);
-        sample_areas(carver, footprint, surface_.top(), slopes_, whole_, work_.area, out_);
+        AreaRequest request;
+        request.footprint = &footprint;
+        request.direction = {slopes_.view, surface_.top(), false};
+        request.slopes = slopes_;
+        request.whole = whole_;
+        request.corners = options_.corners;
+        sample_areas(carver, request, work_.area, out_);
     }
 
   private:
-    // What hides and shades comes from afar where view or light are low: it may be coarser there.
     double tolerance_for(const Footprint& footprint) const {
-        const Box& all = work_.gathered.region.box;
-        const double width = options_.width > 0.0 ? options_.width : std::sqrt(area_of(footprint));
-        return options_.tolerance * std::max(width, 0.02 * std::max(all.high.x - all.low.x, all.high.y - all.low.y));
+        return tolerance_in(work_.gathered.region, options_, options_.width > 0.0 ? options_.width : std::sqrt(area_of(footprint)));
     }
     // Many elements, and fewer of them near a half: not where what matters is long for the sake of low view or light.
     bool is_worth_halving(const Footprint& footprint) const {
@@ -82,7 +90,43 @@ class Finder {
 void find_areas(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const AreasOptions& options, AreasWork& work,
                 std::vector<Share>& out) {
     out.clear();
+    work.area.corners.clear();
     Finder(surface, slopes, options, area_of(footprint), work, out).find(footprint, 0);
+}
+
+double find_hits(const GroovedSurface& surface, const Beam& beam, const Slopes& slopes, const AreasOptions& options, AreasWork& work,
+                 std::vector<Share>& out) {
+    out.clear();
+    work.area.corners.clear();
+    const Vec3 d = beam.direction;
+    Start start{1e300, -1e300, d.z > 0.0};
+    AreaRequest request;
+    request.direction = {Vec2{-d.x / d.z, -d.y / d.z}, surface.top(), start.rising};
+    request.slopes = slopes;
+    request.slopes.view = request.direction.slope;
+    request.corners = request.leaves = true;
+    Footprint plan_of, shown;
+    for (const Vec3 p : beam.corners) {
+        start.low = std::min(start.low, p.z);
+        start.high = std::max(start.high, p.z);
+        plan_of.corners.push_back(plan(p));
+        shown.corners.push_back(request.direction.show(p));
+    }
+    if (area_of(shown) < 0.0) std::reverse(shown.corners.begin(), shown.corners.end());
+    request.whole = area_of(shown);
+    if (!(request.whole > 0.0)) return 1.0;
+    gather_grooves(surface, plan_of, request.slopes, start, work.gathered);
+    if (start.rising && start.low >= work.gathered.highest) return 1.0;
+    sweep_grooves(surface, work.gathered, {tolerance_in(work.gathered.region, options, options.width > 0.0 ? options.width : std::sqrt(request.whole))},
+                  work.geometry);
+    Carver carver(work.geometry, surface, work.gathered, work.carving);
+    request.footprint = &shown;
+    request.normal = beam.normal;
+    request.corner = beam.corners[0];
+    sample_areas(carver, request, work.area, out);
+    double met = 0.0;
+    for (const Share& share : out) met += share.seen;
+    return std::max(0.0, 1.0 - met);
 }
 
 }  // namespace burin::reference

@@ -23,7 +23,8 @@ struct AreasOptions {
     double tolerance = 0.004;  // of the footprint's width: how far bent grooves may lie from the straight pieces that stand for them
     double width = 0.0;        // of the pixel that the footprint is a part of, metres; 0: the root of the footprint's area
     int most_elements = 24;    // more near a footprint: it is divided
-    bool lines = true;         // false: area sampling everywhere, for tests
+    bool lines = true;         // false: area sampling everywhere
+    bool corners = false;      // shares with the polygons that are seen, one for each; area sampling everywhere
 };
 
 // Memory of one thread.
@@ -40,5 +41,17 @@ struct AreasWork {
 // stand there more than once. Requires: a footprint of positive area. Cost: 1 us for a groove, 10 us where two cross.
 void find_areas(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const AreasOptions& options,
                 AreasWork& work, std::vector<Share>& out);
+
+// What leaves a facet in one direction. [2008] 7
+struct Beam {
+    std::vector<Vec3> corners;  // of the part of the facet that it leaves, convex and flat, in pattern space
+    Vec3 normal;                // of the facet
+    Vec3 direction;             // of any length, away from the solid; not level
+};
+
+// What the beam meets, as shares of it with corners; the rest of it leaves the relief: that part is returned. `slopes.view` is not
+// used. Cost: as area sampling.
+double find_hits(const GroovedSurface& surface, const Beam& beam, const Slopes& slopes, const AreasOptions& options, AreasWork& work,
+                 std::vector<Share>& out);
 
 }  // namespace burin::reference

@@ -79,8 +79,8 @@ void bound_heights(const GroovedSurface& surface, Gathered& out) {
     out.highest = std::max(out.highest, surface.pattern().outer_level);
 }
 
-void set_region(const GroovedSurface& surface, const Slopes& slopes, Gathered& out) {
-    out.region.sweep[0] = slopes.view * (surface.top() - out.lowest);
+void set_region(const Slopes& slopes, const Start& start, Gathered& out) {
+    out.region.sweep[0] = slopes.view * (start.rising ? std::min(start.low - out.highest, 0.0) : std::max(start.high - out.lowest, 0.0));
     out.region.sweep[1] = slopes.lit ? slopes.light * (out.lowest - out.highest) : Vec2{0, 0};
     out.region.bound();
 }
@@ -119,12 +119,16 @@ bool Region::meets(const Box& other) const {
 }
 
 void gather_grooves(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, Gathered& out) {
+    gather_grooves(surface, footprint, slopes, Start{surface.top(), surface.top(), false}, out);
+}
+
+void gather_grooves(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const Start& start, Gathered& out) {
     out.region.footprint.corners.assign(footprint.corners.begin(), footprint.corners.end());
     out.lowest = surface.lowest(), out.highest = surface.top();
-    set_region(surface, slopes, out);
+    set_region(slopes, start, out);
     // What lies there may be less deep than the whole pattern.
     bound_heights(surface, out);
-    set_region(surface, slopes, out);
+    set_region(slopes, start, out);
     out.instances.clear();
     out.steps = false;
     const auto& elements = surface.truth().prepared().elements;

@@ -21,6 +21,12 @@ struct Slopes {
     bool lit = true;  // the light stands above the plane
 };
 
+// Heights from which rays start, and which way they go: those of a footprint fall from the object surface.
+struct Start {
+    double low = 0.0, high = 0.0;
+    bool rising = false;
+};
+
 // The part of the plane that may matter: a footprint, swept along the view and back along the light.
 struct Region {
     Footprint footprint;
@@ -54,6 +60,9 @@ struct Gathered {
 
 // Fills `out`, whose memory is used again. Cost: the cells of the region's box.
 void gather_grooves(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, Gathered& out);
+// The same for rays that start elsewhere; slopes.view is theirs, metres over the plane per metre of fall all the same. `footprint` is the plan of
+// where they start and may have no area.
+void gather_grooves(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const Start& start, Gathered& out);
 
 // The ground at p, by the cell's own rule (grid.hpp). Cost: the steps of one cell.
 double ground_near(const GroovedSurface& surface, Vec2 p);

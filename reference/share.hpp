@@ -14,6 +14,7 @@ struct Share {
     double seen = 0.0;          // share of the footprint that shows it, [0, 1]
     double lit = 0.0;           // and that the light reaches, [0, seen]
     Vec3 place;                 // in the middle of what is seen
+    std::uint32_t first_corner = 0, corners = 0;  // of what is seen, a convex polygon; where it was asked for (AreasWork::corners)
 };
 
 }  // namespace burin::reference

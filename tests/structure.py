@@ -33,7 +33,7 @@ def breaches_of(path, text):
     top = path.split("/")[0]
     if text.count("\n") > LONGEST_FILE:
         yield f"has {text.count(chr(10))} lines, {LONGEST_FILE} at most"
-    if top in ("format", "lib", "runtime-shaders"):
+    if top in ("format", "lib", "reference", "runtime-shaders"):
         for number, line in enumerate(code.split("\n"), 1):
             if re.search(PRINTS, line):
                 yield f"line {number} prints or exits; only cli does"
@@ -66,7 +66,7 @@ def header_breaches(path, text):
 def main():
     root = sys.argv[1]
     count, found = 0, 0
-    for path in source_files(root, ("format", "lib", "cli", "runtime-shaders", "tests", "samples", "bench")):
+    for path in source_files(root, ("format", "lib", "reference", "cli", "runtime-shaders", "tests", "samples", "bench")):
         with open(os.path.join(root, path), encoding="utf-8") as file:
             text = file.read()
         count += 1

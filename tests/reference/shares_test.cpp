@@ -134,6 +134,36 @@ TEST(Visibility, EyeAndLightMayChangePlaces) {
     EXPECT_GT(met, 300);
 }
 
+// What leaves the facets of a footprint in some direction, against rays of the truth from the same places.
+TEST(Beams, MeetWhatRaysMeet) {
+    reference::AreasWork work, inner;
+    std::vector<reference::Share> shares, hits;
+    reference::AreasOptions options;
+    options.corners = true;
+    int beams = 0, rays = 0, wrong = 0;
+    for (std::uint64_t seed = 0; seed < 120; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const reference::GroovedSurface surface = grooved(make_case(GrooveCase(seed % kGrooveCases), seed));
+        const Situation situation = make_situation(seed);
+        reference::find_areas(surface, situation.footprint, situation.slopes, options, work, shares);
+        EXPECT_NEAR(total_of(shares), 1.0, 1e-6);
+        for (const reference::Share& share : shares) {
+            if (share.seen < 1e-5) continue;  // needles, as thin as rounding
+            const reference::Beam beam = beam_from(share, work.area.corners, seed + std::uint64_t(beams));
+            const double left = reference::find_hits(surface, beam, situation.slopes, options, inner, hits);
+            EXPECT_LE(total_of(hits), 1.0 + 1e-6);
+            EXPECT_NEAR(total_of(hits) + left, 1.0, 1e-6);
+            const BeamCheck check = check_beam(surface, beam, hits, inner.area.corners);
+            rays += check.rays;
+            wrong += check.wrong;
+            ++beams;
+        }
+    }
+    EXPECT_GT(beams, 300);
+    // A ray may pass beside an edge by less than both tell apart.
+    EXPECT_LE(wrong, rays / 500) << "of " << rays << " rays";
+}
+
 TEST(Footprint, HalvesHoldTheWhole) {
     const reference::Footprint whole = reference::make_ellipse({0.3, 0.2}, {0.02, 0.01}, {-0.005, 0.03});
     reference::Footprint first, second;

@@ -229,4 +229,74 @@ ShareError compare_shares(const Shares& a, const Shares& b) {
     return error;
 }
 
+reference::Beam beam_from(const reference::Share& share, const std::vector<reference::Vec3>& corners, std::uint64_t seed) {
+    Dice dice(seed * 31 + 7);
+    reference::Beam beam;
+    for (std::uint32_t i = 0; i < share.corners; ++i) beam.corners.push_back(corners[share.first_corner + i]);
+    beam.normal = share.normal;
+    do {
+        beam.direction = {dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1)};
+        beam.direction = beam.direction * (1.0 / std::sqrt(dot(beam.direction, beam.direction)));
+    } while (dot(beam.direction, beam.normal) < 0.1 || std::abs(beam.direction.z) < 0.06);
+    return beam;
+}
+
+namespace {
+
+using reference::Vec3;
+
+// How far p lies inside the hit's polygon, seen along d; below 0: outside.
+double depth_inside(const reference::Share& hit, const std::vector<Vec3>& corners, Vec3 p, Vec3 d) {
+    double depth = 1e300, sign = 0.0;
+    for (std::uint32_t i = 0; i < hit.corners; ++i) {
+        const Vec3 a = corners[hit.first_corner + i], b = corners[hit.first_corner + (i + 1) % hit.corners];
+        const Vec3 n = cross(b - a, d);
+        const double l = std::sqrt(dot(n, n));
+        if (l < 1e-12) continue;
+        if (sign == 0.0) sign = dot(hit.place - a, n) < 0.0 ? -1.0 : 1.0;
+        depth = std::min(depth, sign * dot(p - a, n) / l);
+    }
+    return depth;
+}
+
+}  // namespace
+
+BeamCheck check_beam(const reference::GroovedSurface& surface, const reference::Beam& beam, const std::vector<reference::Share>& hits,
+                     const std::vector<Vec3>& corners) {
+    BeamCheck check;
+    const ResolvedPattern& pattern = surface.pattern();
+    Dice dice(beam.corners.size());
+    for (int k = 0; k < 12; ++k) {
+        Vec3 p;
+        double sum = 0.0;
+        for (const Vec3 corner : beam.corners) {
+            const double weight = dice.between(0.05, 1.0);
+            p = p + corner * weight;
+            sum += weight;
+        }
+        p = p * (1.0 / sum) + beam.normal * 1e-9;
+        Ray ray;
+        const double origin[3] = {p.x, p.y, p.z}, way[3] = {beam.direction.x, beam.direction.y, beam.direction.z};
+        std::copy(origin, origin + 3, ray.origin);
+        std::copy(way, way + 3, ray.direction);
+        const RayHit met = surface.truth().trace_ray(ray);
+        if (met.inside || (met.hit && met.t < 1e-7)) continue;  // it left at a border
+        // The hit that holds the ray well inside; near a border either answer may come.
+        const reference::Share* held = nullptr;
+        bool border = false;
+        for (const reference::Share& hit : hits) {
+            const double depth = depth_inside(hit, corners, p, beam.direction);
+            if (depth > 1e-7) held = &hit;
+            border = border || std::abs(depth) <= 1e-7;
+        }
+        if (border) continue;
+        ++check.rays;
+        if (!held)
+            check.wrong += met.hit;
+        else
+            check.wrong += !met.hit || key_of(pattern, met.element, met.facet) != key_of(pattern, held->element, held->facet);
+    }
+    return check;
+}
+
 }  // namespace burin::testing

@@ -50,4 +50,14 @@ Situation make_situation(std::uint64_t seed);
 // The same at a random element of a pattern.
 Situation make_situation_on(const ResolvedPattern& pattern, std::uint64_t seed);
 
+// A beam of a share with corners, in a random direction away from its facet.
+reference::Beam beam_from(const reference::Share& share, const std::vector<reference::Vec3>& corners, std::uint64_t seed);
+
+// Rays of the truth from places inside of the beam: how many meet another facet than the hits say, away from borders of the hits.
+struct BeamCheck {
+    int rays = 0, wrong = 0;
+};
+BeamCheck check_beam(const reference::GroovedSurface& surface, const reference::Beam& beam, const std::vector<reference::Share>& hits,
+                     const std::vector<reference::Vec3>& corners);
+
 }  // namespace burin::testing
