@@ -4,6 +4,7 @@
 #include <burin/vectorize.hpp>
 
 #include <gl/render.hpp>
+#include <reference/render.hpp>
 
 #include "options.hpp"
 
@@ -33,6 +34,7 @@ std::string plain(double value) {
 std::vector<OptionSpec> make_table() {
     const VectorizeOptions vectorize;
     const RenderOptions render;
+    const reference::ReferenceOptions reference;
     const Environment environment;
     const std::string light = plain(render.light.azimuth) + "," + plain(render.light.elevation);
     const std::string depth = plain(vectorize.depth);
@@ -126,6 +128,10 @@ std::vector<OptionSpec> make_table() {
         {"--backend", "render", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl|reference", false,
          "OpenGL by OSMesa, which needs no GPU, or by EGL; or the accurate renderer on the CPU, without OpenGL"},
         {"--backend", "check", choice, "WHICH", "", "osmesa", 0, 0, "osmesa|egl", false, "OpenGL by OSMesa, which needs no GPU, or by EGL"},
+        {"--bounces", "render", integer, "COUNT", "", plain(reference.bounces), 0, 8, "", false,
+         "with --backend reference: light by way of so many facets; grooves mirror and brighten themselves"},
+        {"--directions", "render", integer, "COUNT", "", plain(reference.directions), 1, 1024, "", false,
+         "with --bounces: directions followed from each facet that is no mirror"},
         {"--threads", "render", integer, "COUNT", "", "0", 0, 256, "", false,
          "threads of --backend reference, 0 for all cores; the picture does not depend on it"},
 

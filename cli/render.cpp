@@ -107,9 +107,13 @@ RenderOptions render_options(const Arguments& arguments) {
 // What the shader is asked for says nothing to the renderer on the CPU, and the other way round.
 Status check_backend(const Arguments& arguments) {
     if (arguments.text("--backend") != "reference") {
-        if (!arguments.given("--threads")) return Done{};
-        return Error{ErrorCode::invalid_argument, "--threads changes nothing with --backend " + arguments.text("--backend") + "; reference works"};
+        for (const char* own : {"--threads", "--bounces", "--directions"})
+            if (arguments.given(own))
+                return Error{ErrorCode::invalid_argument, std::string(own) + " changes nothing with --backend " + arguments.text("--backend") + "; reference works"};
+        return Done{};
     }
+    if (arguments.given("--directions") && arguments.integer("--bounces") == 0)
+        return Error{ErrorCode::invalid_argument, "--directions changes nothing without --bounces; --bounces 1 to 8 works"};
     for (const char* other : {"--samples", "--antialiasing", "--rays", "--correct-depth", "--top", "--environment"})
         if (arguments.given(other))
             return Error{ErrorCode::invalid_argument, std::string(other) + " is not for --backend reference, which takes one sample of exact areas "
@@ -186,6 +190,8 @@ Result<PictureSize> draw_reference(const Arguments& arguments, const Asset& asse
     options.view = render_options(arguments);
     if (const Status checked = check_view(arguments, asset, options.view); !checked) return checked.error();
     options.threads = arguments.integer("--threads");
+    options.bounces = arguments.integer("--bounces");
+    options.directions = arguments.integer("--directions");
     ProgressLine line(arguments);
     options.progress = [&](double done) { line.update("render", done); };
     const auto picture = reference::render_reference(asset, options);

@@ -31,12 +31,29 @@ struct Place {
     bool patterned = false;
 };
 
-struct Work {
-    CoverageWork coverage;
+// What is met after so many bounces.
+struct Level {
     AreasWork areas;
     std::vector<Share> shares;
+    std::vector<Scattered> scattered;
+    Beam beam;
+};
+
+struct Work {
+    CoverageWork coverage;
+    std::vector<Level> levels;  // from the eye on
     Footprint footprint;
     ReferenceStats stats;
+    std::uint64_t seed = 0;
+};
+
+// What facets are shaded for: those of one footprint have all but the place in common.
+struct Setting {
+    const Primitive& primitive;
+    const GroovedSurface& surface;
+    glm::dmat3 to_pattern;
+    Slopes slopes;
+    AreasOptions areas;
 };
 
 glm::dvec3 of_array(const std::array<float, 3>& a) { return {double(a[0]), double(a[1]), double(a[2])}; }
@@ -119,26 +136,83 @@ class Renderer {
     glm::dvec3 part_color(const Covered& part, Work& work) const {
         const Primitive& primitive = asset_.primitives[part.triangle->primitive];
         const Place place = place_of(*part.triangle, middle_of(work.coverage.plane, part.polygon));
-        if (!place.patterned) return facet_color(primitive, nullptr, place, place.normal, 1.0);
+        if (!place.patterned) return plain_color(primitive, place);
         const GroovedSurface& surface = *surfaces_[std::size_t(primitive.material)];
-        if (!set_footprint(part, primitive, surface, work)) return facet_color(primitive, nullptr, place, place.normal, 1.0);
-        const glm::dmat3 to_pattern = glm::inverse(place.frame);
-        const Slopes slopes = slopes_of(to_pattern, place);
-        AreasOptions areas;
-        areas.tolerance = options_.tolerance;
-        areas.width = std::sqrt(area_of(work.footprint) / area_of(work.coverage.plane, part.polygon));
-        find_areas(surface, work.footprint, slopes, areas, work.areas, work.shares);
+        if (!set_footprint(part, primitive, surface, work)) return plain_color(primitive, place);
+        Setting setting{primitive, surface, glm::inverse(place.frame), {}, {}};
+        setting.slopes = slopes_of(setting.to_pattern, place);
+        setting.areas.tolerance = options_.tolerance;
+        setting.areas.width = std::sqrt(area_of(work.footprint) / area_of(work.coverage.plane, part.polygon));
+        setting.areas.corners = options_.bounces > 0;
+        Level& first = work.levels[0];
+        find_areas(surface, work.footprint, setting.slopes, setting.areas, first.areas, first.shares);
         ++work.stats.footprints;
-        glm::dvec3 sum(0.0);
         double seen = 0.0;
-        for (const Share& share : work.shares) {
-            sum += share_color(primitive, surface, share, to_pattern, place, slopes.lit) * share.seen;
-            seen += share.seen;
-        }
+        for (const Share& share : first.shares) seen += share.seen;
         const double off = std::abs(seen - 1.0) * area_of(work.coverage.plane, part.polygon);
         work.stats.worst_sum = std::max(work.stats.worst_sum, off);
         work.stats.mean_sum += off;
-        return seen > 0.0 ? sum / seen : background_;
+        return seen > 0.0 ? shares_color(setting, place, 0, work) / seen : background_;
+    }
+
+    // Of a mesh without detail.
+    glm::dvec3 plain_color(const Primitive& primitive, const Place& place) const {
+        glm::dvec3 color = facet_color(paint_of(primitive, nullptr), place.to_eye, place.normal, 1.0);
+        if (options_.bounces > 0) color += soft_surround(paint_of(primitive, nullptr), place.normal, light_, place.to_eye, options_.view.light.ambient);
+        return color;
+    }
+
+    // Sum over the shares of a level, each as far as it is seen.
+    glm::dvec3 shares_color(const Setting& setting, const Place& place, std::size_t level, Work& work) const {
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < work.levels[level].shares.size(); ++i) {
+            const Share share = work.levels[level].shares[i];
+            const glm::dvec3 normal = glm::normalize(glm::transpose(setting.to_pattern) * glm::dvec3(share.normal.x, share.normal.y, share.normal.z));
+            const Paint paint = paint_of(setting.primitive, own_material(setting.surface, share));
+            const double lit = !setting.slopes.lit ? 0.0 : options_.view.shadows ? share.lit / share.seen : 1.0;
+            glm::dvec3 color = facet_color(paint, place.to_eye, normal, lit);
+            if (int(level) < options_.bounces) color += light_by_way(setting, place, share, paint, normal, level, work);
+            sum += color * share.seen;
+        }
+        return sum;
+    }
+
+    // What a facet gets from others and, past them, from the surround.
+    glm::dvec3 light_by_way(const Setting& setting, const Place& place, const Share& share, const Paint& paint, const glm::dvec3& normal, std::size_t level,
+                            Work& work) const {
+        Level& own = work.levels[level];
+        own.scattered.clear();
+        options_.scatter(paint, normal, place.to_eye, options_.directions, ++work.seed, own.scattered);
+        own.beam.corners.clear();
+        for (std::uint32_t k = 0; k < share.corners; ++k) own.beam.corners.push_back(own.areas.area.corners[share.first_corner + k]);
+        own.beam.normal = share.normal;
+        glm::dvec3 sum(0.0);
+        for (std::size_t k = 0; k < own.scattered.size(); ++k) {
+            const Scattered way = own.scattered[k];
+            const glm::dvec3 d = setting.to_pattern * way.direction;
+            own.beam.direction = leaned({d.x, d.y, d.z});
+            Level& next = work.levels[level + 1];
+            const double left = find_hits(setting.surface, own.beam, setting.slopes, setting.areas, next.areas, next.shares);
+            glm::dvec3 radiance = surround(way.direction) * left;
+            if (!next.shares.empty()) {
+                Place there = place;
+                there.to_eye = -way.direction;
+                radiance += shares_color(setting, there, level + 1, work);
+            }
+            sum += way.weight * radiance;
+        }
+        return sum;
+    }
+
+    // Level beams are tilted, as low views are.
+    static Vec3 leaned(Vec3 d) {
+        const double least = std::hypot(d.x, d.y) / kMostSlope;
+        if (std::abs(d.z) < least) d.z = d.z < 0.0 ? -least : least;
+        return d;
+    }
+
+    glm::dvec3 surround(const glm::dvec3& direction) const {
+        return options_.surround ? options_.surround(direction) : soft_radiance(direction, options_.view.light.ambient);
     }
 
     Slopes slopes_of(const glm::dmat3& to_pattern, const Place& place) const {
@@ -169,21 +243,15 @@ class Renderer {
         return std::abs(area) > 1e-24;
     }
 
-    // A facet's own colour, the lit part and the rest mixed as they are seen.
-    glm::dvec3 share_color(const Primitive& primitive, const GroovedSurface& surface, const Share& share, const glm::dmat3& to_pattern, const Place& place,
-                           bool lit) const {
-        const glm::dvec3 normal = glm::normalize(glm::transpose(to_pattern) * glm::dvec3(share.normal.x, share.normal.y, share.normal.z));
-        const Material* own = nullptr;
-        if (share.element != kGround) {
-            const ResolvedPattern& pattern = surface.pattern();
-            const Material& material = pattern.materials[pattern.styles[pattern.elements[share.element].style].material];
-            if (material.overrides) own = &material;
-        }
-        const double part = !lit ? 0.0 : options_.view.shadows ? share.lit / share.seen : 1.0;
-        return facet_color(primitive, own, place, normal, part);
+    // Null: the glTF material itself.
+    static const Material* own_material(const GroovedSurface& surface, const Share& share) {
+        if (share.element == kGround) return nullptr;
+        const ResolvedPattern& pattern = surface.pattern();
+        const Material& material = pattern.materials[pattern.styles[pattern.elements[share.element].style].material];
+        return material.overrides ? &material : nullptr;
     }
 
-    glm::dvec3 facet_color(const Primitive& primitive, const Material* own, const Place& place, const glm::dvec3& normal, double lit) const {
+    Paint paint_of(const Primitive& primitive, const Material* own) const {
         const MaterialInfo& material = asset_.materials[std::size_t(primitive.material)];
         Paint paint;
         const float* color = own ? own->base_color : material.base_color;
@@ -191,9 +259,15 @@ class Renderer {
         paint.metal = double(own ? own->metallic : material.metallic);
         paint.rough = double(own ? own->roughness : material.roughness);
         if (!own) paint.glow = {double(material.emissive[0]), double(material.emissive[1]), double(material.emissive[2])};
-        const glm::dvec3 dark = paint.glow + soft_surround(paint, normal, light_, place.to_eye, options_.view.light.ambient);
-        const glm::dvec3 bright = dark + options_.brdf(paint, normal, light_, place.to_eye) * options_.view.light.strength;
-        return glm::mix(glm::clamp(dark, 0.0, 1.0), glm::clamp(bright, 0.0, 1.0), lit);
+        return paint;
+    }
+
+    // A facet's own colour, the lit part and the rest mixed as they are seen.
+    glm::dvec3 facet_color(const Paint& paint, const glm::dvec3& to_eye, const glm::dvec3& normal, double lit) const {
+        const glm::dvec3 lamp = options_.brdf(paint, normal, light_, to_eye) * options_.view.light.strength;
+        if (options_.bounces > 0) return paint.glow + lamp * lit;
+        const glm::dvec3 dark = paint.glow + soft_surround(paint, normal, light_, to_eye, options_.view.light.ambient);
+        return glm::mix(glm::clamp(dark, 0.0, 1.0), glm::clamp(dark + lamp, 0.0, 1.0), lit);
     }
 
     const Asset& asset_;
@@ -208,6 +282,9 @@ Status check_options(const Asset& asset, const ReferenceOptions& options) {
     if (Status status = check_render(asset, options.view); !status) return status;
     if (!(options.tolerance > 0.0 && options.tolerance <= 0.1))
         return Error{ErrorCode::invalid_argument, "the tolerance of the reference renderer must be above 0 and at most 0.1"};
+    if (options.bounces < 0 || options.bounces > 8) return Error{ErrorCode::invalid_argument, "bounces of the reference renderer must be 0 to 8"};
+    if (options.directions < 1 || options.directions > 1024)
+        return Error{ErrorCode::invalid_argument, "directions of the reference renderer must be 1 to 1024"};
     if (options.view.environment)
         return Error{ErrorCode::unsupported, "the reference renderer knows no environment yet; the directional light with its soft surround works"};
     return Done{};
@@ -236,15 +313,17 @@ Result<ReferencePicture> render_reference(const Asset& asset, const ReferenceOpt
     for_each_piece(tiles, options.threads, [&](std::size_t tile) {
         thread_local Work work;
         work.stats = {};
-        work.areas.by_line = work.areas.by_area = 0;
+        work.levels.resize(std::size_t(options.bounces) + 1);
+        work.levels[0].areas.by_line = work.levels[0].areas.by_area = 0;
         const int x0 = int(tile % std::size_t(renderer.map().columns())) * kTileSide, y0 = int(tile / std::size_t(renderer.map().columns())) * kTileSide;
         for (int y = y0; y < std::min(y0 + kTileSide, picture.height); ++y)
             for (int x = x0; x < std::min(x0 + kTileSide, picture.width); ++x) {
+                work.seed = (std::uint64_t(y) * std::uint64_t(picture.width) + std::uint64_t(x)) << 20;
                 const glm::dvec3 color = renderer.pixel_color(x, y, work);
                 for (std::size_t c = 0; c < 3; ++c)
                     picture.linear[(std::size_t(y) * std::size_t(picture.width) + std::size_t(x)) * 3 + c] = float(color[int(c)]);
             }
-        work.stats.by_line = work.areas.by_line, work.stats.by_area = work.areas.by_area;
+        work.stats.by_line = work.levels[0].areas.by_line, work.stats.by_area = work.levels[0].areas.by_area;
         stats[tile] = work.stats;
         const std::lock_guard lock(told);
         options.progress(double(++done) / double(tiles));

@@ -20,6 +20,13 @@ struct ReferenceOptions {
     double tolerance = 0.004;  // of a footprint's width: how far bent grooves may lie from what stands for them, (0, 0.1]
     int threads = 0;           // 0: as many as the machine has; the picture does not depend on it
     Brdf brdf = metallic_roughness;
+    // Light that comes by way of other facets, [2008] 7: after how many of them none is followed. From 1 on the soft surround is seen
+    // by the parts of facets that it reaches, instead of falling on all alike, and radiance is not bounded before it is averaged.
+    int bounces = 0;     // [0, 8]
+    int directions = 8;  // for each facet and way to scatter that is no mirror, [1, 1024]
+    Scatter scatter = scatter_metallic_roughness;
+    // Radiance of what surrounds the asset, by direction; none: soft_radiance of the light's ambient strength.
+    std::function<glm::dvec3(const glm::dvec3&)> surround;
     // Called with the part that is done, from 0 to 1, by one thread at a time.
     std::function<void(double)> progress = [](double) {};
 };
@@ -39,7 +46,7 @@ struct ReferencePicture {
 
 // A view or light lower than 2.9 degrees over the mesh counts as one of 2.9 degrees: farther along the surface nothing is flat. Pattern rays do not bend with a round mesh, nor cross the seams of its uvs, within a pixel's reach ([2008] 9).
 // Fails as render_asset does; unsupported: an environment; invalid_input: textures that break a rule of the format. Cost: some 2 us per
-// pixel on smooth grooves, 10 to 50 where they meet.
+// pixel on smooth grooves, 10 to 50 where they meet; with bounces as much for each facet, direction and bounce.
 Result<ReferencePicture> render_reference(const Asset& asset, const ReferenceOptions& options = {});
 
 }  // namespace burin::reference

@@ -1,6 +1,7 @@
 // Pictures of the reference renderer: against the shader's, whatever the number of threads, and what it refuses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <reference/coverage.hpp>
@@ -99,6 +100,60 @@ TEST(Picture, NeedsAnAssetAndOptionsInRange) {
     options.view.environment.reset();
     options.view.width = 0;
     EXPECT_EQ(render_reference(asset, options).error().code, ErrorCode::invalid_argument);
+}
+
+// A white furnace: all around the same light, which nothing swallows. What facets show then is as bright, but for what is lost after
+// the last bounce; never brighter.
+class Furnace : public ::testing::TestWithParam<const char*> {
+  protected:
+    static ReferenceOptions furnace(int bounces) {
+        ReferenceOptions options{view(50.0, 6.0)};
+        options.view.width = 32;
+        options.view.height = 24;
+        options.view.light.strength = 0.0;
+        options.bounces = bounces;
+        options.directions = 6;
+        options.scatter = reference::scatter_white;
+        options.surround = [](const glm::dvec3&) { return glm::dvec3(1.0); };
+        return options;
+    }
+    static double darkest(const reference::ReferencePicture& picture) { return double(*std::min_element(picture.linear.begin(), picture.linear.end())); }
+    static double mean(const reference::ReferencePicture& picture) {
+        double sum = 0.0;
+        for (const float value : picture.linear) sum += double(value);
+        return sum / double(picture.linear.size());
+    }
+};
+
+TEST_P(Furnace, NothingIsBrighterThanTheLight) {
+    const Asset asset = scene(GetParam());
+    double before = 0.0;  // what each bounce leaves out is a part of what the one before did
+    for (const int bounces : {1, 2, 3}) {
+        const auto picture = render_reference(asset, furnace(bounces));
+        ASSERT_TRUE(picture) << picture.error().message;
+        EXPECT_LE(double(*std::max_element(picture->linear.begin(), picture->linear.end())), 1.0 + 1e-5);
+        EXPECT_LT(1.0 - mean(*picture), 0.7 * (1.0 - before));
+        before = mean(*picture);
+    }
+    EXPECT_GT(before, 0.95);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Furnace, ::testing::Values("crossing", "parallel_grooves", "sunken_square"),
+                         [](const auto& one) { return std::string(one.param); });
+
+// Mirrors: what leaves a groove after two bounces or three is all there is.
+TEST(Bounces, AMirrorShowsAllThatSurroundsIt) {
+    Asset asset = scene("parallel_grooves");
+    for (float& channel : asset.materials[0].base_color) channel = 1.0f;
+    asset.materials[0].metallic = 1.0f;
+    asset.materials[0].roughness = 0.0f;
+    ReferenceOptions options{view(50.0, 6.0)};
+    options.view.light.strength = 0.0;
+    options.bounces = 4;
+    options.surround = [](const glm::dvec3&) { return glm::dvec3(1.0); };
+    const auto picture = render_reference(asset, options);
+    ASSERT_TRUE(picture) << picture.error().message;
+    for (const float value : picture->linear) ASSERT_NEAR(value, 1.0f, 1e-4f);
 }
 
 // Two triangles that share an edge, and one before them.
