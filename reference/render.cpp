@@ -172,7 +172,8 @@ class Renderer {
             const double lit = !setting.slopes.lit ? 0.0 : options_.view.shadows ? share.lit / share.seen : 1.0;
             glm::dvec3 color = facet_color(paint, place.to_eye, normal, lit);
             if (int(level) < options_.bounces) color += light_by_way(setting, place, share, paint, normal, level, work);
-            sum += color * share.seen;
+            // A lamp that a matt facet happens to see in a smooth one would be a spark.
+            sum += (level > 0 ? glm::min(color, glm::dvec3(1.0)) : color) * share.seen;
         }
         return sum;
     }

@@ -21,7 +21,8 @@ struct ReferenceOptions {
     int threads = 0;           // 0: as many as the machine has; the picture does not depend on it
     Brdf brdf = metallic_roughness;
     // Light that comes by way of other facets, [2008] 7: after how many of them none is followed. From 1 on the soft surround is seen
-    // by the parts of facets that it reaches, instead of falling on all alike, and radiance is not bounded before it is averaged.
+    // by the parts of facets that it reaches, instead of falling on all alike, and what the eye sees is not bounded before it is averaged; what a facet
+    // sees of others is, by 1.
     int bounces = 0;     // [0, 8]
     int directions = 8;  // for each facet and way to scatter that is no mirror, [1, 1024]
     Scatter scatter = scatter_metallic_roughness;
