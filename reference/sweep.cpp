@@ -276,17 +276,18 @@ class Sweeper {
             for (const bool first : {true, false}) {
                 const bool ends = first ? k == 0 : k + 1 == facets.size();
                 if (!ends && (!facets[k].internal || facets[first ? k - 1 : k + 1].internal)) continue;
-                wall_side(a, b, facets[k], first == facets[k].rightward, ends);
+                wall_side(a, b, facets[k], first, ends);
             }
     }
 
-    // At the smaller or the larger offset of the facet.
-    void wall_side(const Station& a, const Station& b, const ProfileFacet& facet, bool low, bool ends) {
+    // At the facet's first point, where its run begins, or at its last.
+    void wall_side(const Station& a, const Station& b, const ProfileFacet& facet, bool first, bool ends) {
+        const bool low = first == facet.rightward;
         const std::uint32_t line = low ? facet.from : facet.to;
         if (element_->step && profile_->lines[line] == 0.0) return;  // the ground's wall stands there
         const double h = low ? facet.h0 : facet.h1, za = height(a, h), zb = height(b, h), level = ground(facet.from, facet.to);
         Vec2 outward = normal_of(unit(at_b_[line] - at_a_[line]));
-        if (low) outward = -outward;
+        if (first) outward = -outward;
         if (facet.internal && std::min(za, zb) < gathered_.highest - out_.fine) put_wall(FaceKind::cut, at_a_[line], za, at_b_[line], zb, outward, level);
         if (ends && std::max(za, zb) > level + out_.fine) put_wall(FaceKind::add, at_a_[line], za, at_b_[line], zb, outward, level);
     }

@@ -51,7 +51,7 @@ TEST_P(EachLook, IsThatOfTheShader) {
 
 INSTANTIATE_TEST_SUITE_P(Looks, EachLook,
                          ::testing::Values(Look{"crossing", 60.0, 6.0}, Look{"parallel_grooves", 30.0, 2.0}, Look{"letters", 60.0, 6.0},
-                                           Look{"sunken_square", 40.0, 6.0}, Look{"tapered_cracks", 60.0, 8.0}, Look{"isolated_end", 30.0, 6.0}),
+                                           Look{"sunken_square", 40.0, 6.0}, Look{"tapered_cracks", 60.0, 8.0}, Look{"isolated_end", 30.0, 6.0}, Look{"overhang", 60.0, 6.0}),
                          [](const auto& one) { return std::string(one.param.scene); });
 
 TEST(Picture, IsTheSameForAnyNumberOfThreads) {
