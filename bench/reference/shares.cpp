@@ -35,10 +35,13 @@ Outcome measure_one(GrooveCase which, std::uint64_t seed, int side, bool noise) 
     reference::AreasWork work;
     std::vector<reference::Share> shares;
     reference::find_areas(surface, situation.footprint, situation.slopes, {}, work, shares);
-    const auto start = std::chrono::steady_clock::now();
-    reference::find_areas(surface, situation.footprint, situation.slopes, {}, work, shares);
     Outcome outcome;
-    outcome.microseconds = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    outcome.microseconds = 1e300;
+    for (int run = 0; run < 5; ++run) {
+        const auto start = std::chrono::steady_clock::now();
+        reference::find_areas(surface, situation.footprint, situation.slopes, {}, work, shares);
+        outcome.microseconds = std::min(outcome.microseconds, std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
+    }
     for (const reference::Share& share : shares) outcome.sum += share.seen;
     const Shares truth = shares_by_truth(surface, situation, side, seed);
     outcome.error = compare_shares(gather_shares(surface.pattern(), shares), truth);
@@ -92,7 +95,7 @@ int main(int argc, char** argv) {
     }
     std::printf("\n### Shares of footprints\n\nPer cent of the footprint that goes to another facet than rays of the truth say, %d x %d over the box of each; views and lights from 5 to 90\n"
                 "degrees, footprints from a tenth of a groove to several. Rays: what rays of the truth are off by themselves. Sum: how far shares are\n"
-                "from 1, at most. us: of one footprint on one core, with the other at work.\n\n"
+                "from 1, at most. us: of one footprint on one core, the least of five runs, mean.\n\n"
                 "| case | footprints | seen, mean | 99 %% | worst | lit, mean | 99 %% | worst | rays | sum | us |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
                 side, side);
     for (int which = 0; which < burin::testing::kGrooveCases; ++which) burin::bench::measure(burin::testing::GrooveCase(which), count, side);
