@@ -232,7 +232,7 @@ class Sweeper {
         for (std::size_t i = 0; i < out_.zones.size(); ++i) {
             // Where the ground changes just there, the border of the zone has the wall.
             if (!acts_in(out_, out_.zones[i], level)) continue;
-            const Stretch part = stretch_inside(out_, out_.zones[i].polygon, p + off, q + off);
+            const Stretch part = stretch_inside(out_, out_.zones[i], p + off, q + off);
             if (part.low >= part.high) continue;
             const Vec2 a = lerp(p, q, part.low), b = lerp(p, q, part.high);
             const double za = zp + (zq - zp) * part.low, zb = zp + (zq - zp) * part.high;
@@ -309,6 +309,7 @@ void sweep_grooves(const GroovedSurface& surface, const Gathered& gathered, cons
     out.points.clear();
     out.plan.clear();
     out.zones.clear();
+    out.edges.clear();
     out.brushes.clear();
     out.faces.clear();
     const Vec2 extent = gathered.region.box.high - gathered.region.box.low;

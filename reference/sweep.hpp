@@ -46,12 +46,14 @@ struct Zone {
     double level = 0.0;
     Box box;
     bool outside = false;  // of a clamped map: nothing acts there
+    std::uint32_t first_edge = 0;  // into LocalGeometry::edges, one for each corner
 };
 
 struct LocalGeometry {
     Polygons<Vec3> points;
     Polygons<Vec2> plan;
     std::vector<Zone> zones;
+    std::vector<HalfPlane> edges;  // of zones
     std::vector<Brush> brushes;
     std::vector<Face> faces;
     double fine = 0.0;  // heights and places nearer than this are equal, metres

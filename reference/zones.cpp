@@ -6,16 +6,29 @@
 #include "stations.hpp"
 
 namespace burin::reference {
-Stretch stretch_inside(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b) {
+namespace {
+
+// `edge_at(i)` for the edges of a convex polygon.
+template <typename Edge>
+Stretch stretch_between(std::uint32_t count, const Edge& edge_at, double fine, Vec2 a, Vec2 b) {
     Stretch part;
-    for (std::uint32_t i = 0; i < p.count; ++i) {
-        const HalfPlane edge = edge_of(out.plan, p, i);
-        const double at_a = beyond(edge, a) + out.fine, at_b = beyond(edge, b) + out.fine;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const HalfPlane edge = edge_at(i);
+        const double at_a = beyond(edge, a) + fine, at_b = beyond(edge, b) + fine;
         if (at_a >= 0.0 && at_b >= 0.0) return {1.0, 0.0};
         if (at_a > 0.0) part.low = std::max(part.low, at_a / (at_a - at_b));
         if (at_b > 0.0) part.high = std::min(part.high, at_a / (at_a - at_b));
     }
     return part;
+}
+
+}  // namespace
+
+Stretch stretch_inside(const LocalGeometry& out, const Zone& zone, Vec2 a, Vec2 b) {
+    if (std::max(a.x, b.x) < zone.box.low.x || std::min(a.x, b.x) > zone.box.high.x || std::max(a.y, b.y) < zone.box.low.y ||
+        std::min(a.y, b.y) > zone.box.high.y)
+        return {1.0, 0.0};
+    return stretch_between(zone.polygon.count, [&](std::uint32_t i) { return out.edges[zone.first_edge + i]; }, out.fine, a, b);
 }
 
 namespace {
@@ -33,20 +46,22 @@ Polygon polygon_of(LocalGeometry& out, const Region& region) {
     return p;
 }
 
-Polygon overlap(Polygons<Vec2>& pool, Polygon p, Polygon q) {
-    for (std::uint32_t i = 0; p && i < q.count; ++i) p = pool.clip(p, edge_of(pool, q, i));
-    return is_solid(pool, p) ? p : Polygon{};
+Polygon overlap(LocalGeometry& out, Polygon p, const Zone& zone) {
+    for (std::uint32_t i = 0; p && i < zone.polygon.count; ++i) p = out.plan.clip(p, out.edges[zone.first_edge + i]);
+    return is_solid(out.plan, p) ? p : Polygon{};
 }
 
 void split_zones(LocalGeometry& out, const HalfPlane& line, Vec2 a, Vec2 b) {
     const std::size_t count = out.zones.size();
     for (std::size_t i = 0; i < count; ++i) {
-        if (const Stretch part = stretch_inside(out, out.zones[i].polygon, a, b); part.low >= part.high) continue;
+        const Polygon p = out.zones[i].polygon;
+        const Stretch part = stretch_between(p.count, [&](std::uint32_t k) { return edge_of(out.plan, p, k); }, out.fine, a, b);
+        if (part.low >= part.high) continue;
         Polygon inside, outside;
         out.plan.split(out.zones[i].polygon, line, inside, outside);
         if (!inside || !outside) continue;
         out.zones[i].polygon = inside;
-        out.zones.push_back({outside, 0.0, {}, false});
+        out.zones.push_back({outside, 0.0, {}, false, 0});
     }
 }
 
@@ -75,7 +90,7 @@ void split_at_borders(const GroovedSurface& surface, LocalGeometry& out) {
             out.plan.split(out.zones[i].polygon, border, inside, outside);
             if (!inside || !outside) continue;
             out.zones[i].polygon = inside;
-            out.zones.push_back({outside, 0.0, {}, false});
+            out.zones.push_back({outside, 0.0, {}, false, 0});
         }
     }
 }
@@ -122,7 +137,7 @@ void put_step_wall(const GroovedSurface& surface, Vec2 a, Vec2 b, const Prepared
 }  // namespace
 
 void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
-    out.zones.push_back({polygon_of(out, gathered.region), 0.0, {}, false});
+    out.zones.push_back({polygon_of(out, gathered.region), 0.0, {}, false, 0});
     if (surface.pattern().wrap == Wrap::clamp) split_at_borders(surface, out);
     if (gathered.steps)
         for_each_chord(surface, gathered, options, [&](Vec2 a, Vec2 b, const PreparedElement&, std::uint32_t) {
@@ -134,6 +149,8 @@ void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const
         zone.level = ground_near(surface, middle);
         zone.outside = surface.pattern().wrap == Wrap::clamp && (middle.x < 0.0 || middle.y < 0.0 || middle.x > size.x || middle.y > size.y);
         zone.box = box_of(out.plan, zone.polygon);
+        zone.first_edge = static_cast<std::uint32_t>(out.edges.size());
+        for (std::uint32_t i = 0; i < zone.polygon.count; ++i) out.edges.push_back(edge_of(out.plan, zone.polygon, i));
         put_ground(zone, out);
     }
     if (gathered.steps)
@@ -148,13 +165,13 @@ bool acts_in(const LocalGeometry& out, const Zone& zone, double level) {
 
 void limit_to_zones(LocalGeometry& out, const Brush& brush, double level) {
     const bool whole = std::all_of(out.zones.begin(), out.zones.end(), [&](const Zone& zone) {
-        return acts_in(out, zone, level) || !meet(zone.box, brush.box) || !overlap(out.plan, brush.polygon, zone.polygon);
+        return acts_in(out, zone, level) || !meet(zone.box, brush.box) || !overlap(out, brush.polygon, zone);
     });
     if (whole) return out.brushes.push_back(brush);
     for (const Zone& zone : out.zones) {
         if (!acts_in(out, zone, level) || !meet(zone.box, brush.box)) continue;
         Brush part = brush;
-        part.polygon = overlap(out.plan, brush.polygon, zone.polygon);
+        part.polygon = overlap(out, brush.polygon, zone);
         if (!part.polygon) continue;
         part.box = box_of(out.plan, part.polygon);
         out.brushes.push_back(part);
@@ -165,7 +182,7 @@ namespace {
 
 Polygon inside_zone(LocalGeometry& out, Polygon p, const Zone& zone) {
     for (std::uint32_t i = 0; p && i < zone.polygon.count; ++i) {
-        const HalfPlane edge = edge_of(out.plan, zone.polygon, i);
+        const HalfPlane& edge = out.edges[zone.first_edge + i];
         p = out.points.clip(p, HalfSpace{{edge.n.x, edge.n.y, 0.0}, edge.d});
     }
     return p;
@@ -197,7 +214,7 @@ void wall_border(LocalGeometry& out, const Face& face, const Zone& zone) {
     for (const Zone& other : out.zones) highest = std::max(highest, other.level);
     const double far = face.kind == FaceKind::cut ? highest : face.level;
     for (std::uint32_t k = 0; k < zone.polygon.count; ++k) {
-        const HalfPlane edge = edge_of(out.plan, zone.polygon, k);
+        const HalfPlane edge = out.edges[zone.first_edge + k];
         const Vec2 off = edge.n * (64.0 * out.fine);
         for (std::uint32_t i = 0; i < face.polygon.count; ++i) {
             const Vec3 a = out.points(face.polygon, i), b = out.points(face.polygon, i + 1 < face.polygon.count ? i + 1 : 0);
@@ -205,7 +222,7 @@ void wall_border(LocalGeometry& out, const Face& face, const Zone& zone) {
             if (length(plan(b) - plan(a)) <= out.fine) continue;
             for (const Zone& other : out.zones) {
                 if (acts_in(out, other, face.level)) continue;
-                const Stretch part = stretch_inside(out, other.polygon, plan(a) + off, plan(b) + off);
+                const Stretch part = stretch_inside(out, other, plan(a) + off, plan(b) + off);
                 if (part.low < part.high) wall_edge(out, face, a + (b - a) * part.low, a + (b - a) * part.high, edge.n, other.level, far);
             }
         }

@@ -12,11 +12,11 @@ void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const
 // Whether what belongs to ground of that level acts in the zone.
 bool acts_in(const LocalGeometry& out, const Zone& zone, double level);
 
-// The part of the way from a to b that runs through the inside of a convex polygon, from 0 to 1; low >= high: none.
+// The part of the way from a to b that runs through the inside of a zone, from 0 to 1; low >= high: none.
 struct Stretch {
     double low = 0.0, high = 1.0;
 };
-Stretch stretch_inside(const LocalGeometry& out, Polygon p, Vec2 a, Vec2 b);
+Stretch stretch_inside(const LocalGeometry& out, const Zone& zone, Vec2 a, Vec2 b);
 
 // Adds the brush or face, or what of it lies over ground of its level. Faces end up with the walls that they need there.
 void limit_to_zones(LocalGeometry& out, const Brush& brush, double level);
