@@ -44,7 +44,7 @@ void Carver::carve(const Face& face) {
         if (!meet(brush.box, face.box) || (face.kind == FaceKind::cut && !brush.cut) || spares(face, brush)) continue;
         remove(face, b, tie(face, brush));
     }
-    if (face.wall) keep_first_wall(face);
+    if (face.wall && face.kind != FaceKind::ground) keep_first_wall(face);
 }
 
 // Of walls at one place that of the first element stays: behind what stands, and before what is cut, lies no other's.

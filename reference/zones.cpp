@@ -111,20 +111,14 @@ void put_ground(const Zone& zone, LocalGeometry& out) {
     out.faces.push_back(face);
 }
 
-// The ground's own step where the profile has an upright facet, or none at all, at b = 0.
-void put_step_wall(const GroovedSurface& surface, Vec2 a, Vec2 b, const PreparedElement& e, std::uint32_t instance, LocalGeometry& out) {
-    const double low = std::min(e.left_level, e.right_level), high = std::max(e.left_level, e.right_level);
-    if (high - low <= out.fine) return;
+// Between the levels on both sides of a line from a to b. `outward` points to the lower.
+void put_ground_wall(Vec2 a, Vec2 b, Vec2 outward, double low, double high, std::uint32_t facet, std::uint32_t instance, LocalGeometry& out) {
     Face face;
     face.wall = true;
     face.instance = instance;
-    face.facet = kWall;
-    const SlabbedProfile& profile = surface.profiles()[e.profile];
-    for (const ProfileFacet& facet : profile.facets)
-        if (facet.from == facet.to && profile.lines[facet.from] == 0.0) face.facet = facet.facet;
+    face.facet = facet;
     face.level = low;
-    const Vec2 n = normal_of(unit(b - a)) * (e.left_level > e.right_level ? 1.0 : -1.0);
-    face.normal = {n.x, n.y, 0.0};
+    face.normal = {outward.x, outward.y, 0.0};
     const std::uint32_t from = out.points.mark();
     for (const Vec3 corner : {Vec3{a.x, a.y, low}, Vec3{b.x, b.y, low}, Vec3{b.x, b.y, high}, Vec3{a.x, a.y, high}}) {
         out.points.add(corner);
@@ -132,6 +126,35 @@ void put_step_wall(const GroovedSurface& surface, Vec2 a, Vec2 b, const Prepared
     }
     face.polygon = out.points.close(from);
     out.faces.push_back(face);
+}
+
+// The ground's own steps along a line: where its sides are of different level. Outlines may run back over themselves.
+void put_ground_walls(Vec2 a, Vec2 b, std::uint32_t facet, std::uint32_t instance, LocalGeometry& out) {
+    const Vec2 n = normal_of(unit(b - a)), off = n * (64.0 * out.fine);
+    for (const Zone& right : out.zones) {
+        const Stretch first = stretch_inside(out, right, a + off, b + off);
+        if (first.low >= first.high) continue;
+        for (const Zone& left : out.zones) {
+            if (std::abs(left.level - right.level) <= 16.0 * out.fine) continue;
+            const Stretch second = stretch_inside(out, left, a - off, b - off);
+            const double from = std::max(first.low, second.low), to = std::min(first.high, second.high);
+            if (from >= to) continue;
+            put_ground_wall(lerp(a, b, from), lerp(a, b, to), left.level > right.level ? n : -n, std::min(left.level, right.level),
+                            std::max(left.level, right.level), facet, instance, out);
+        }
+    }
+}
+
+// The upright facet of a step's profile on its path line; a wall without one.
+std::uint32_t facet_on_line(const SlabbedProfile& profile) {
+    for (const ProfileFacet& facet : profile.facets)
+        if (facet.from == facet.to && profile.lines[facet.from] == 0.0) return facet.facet;
+    return kWall;
+}
+
+void put_border_walls(const GroovedSurface& surface, LocalGeometry& out) {
+    const Vec2 size = surface.pattern().size, corners[] = {{0, 0}, {size.x, 0}, size, {0, size.y}};
+    for (std::size_t i = 0; i < 4; ++i) put_ground_walls(corners[i], corners[(i + 1) % 4], kWall, kGround, out);
 }
 
 }  // namespace
@@ -155,8 +178,9 @@ void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const
     }
     if (gathered.steps)
         for_each_chord(surface, gathered, options, [&](Vec2 a, Vec2 b, const PreparedElement& e, std::uint32_t instance) {
-            put_step_wall(surface, a, b, e, instance, out);
+            put_ground_walls(a, b, facet_on_line(surface.profiles()[e.profile]), instance, out);
         });
+    if (surface.pattern().wrap == Wrap::clamp && out.zones.size() > 1) put_border_walls(surface, out);
 }
 
 bool acts_in(const LocalGeometry& out, const Zone& zone, double level) {
