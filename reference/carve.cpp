@@ -1,5 +1,7 @@
 #include "carve.hpp"
 
+#include <algorithm>
+
 #include "evaluate_prepare.hpp"
 
 namespace burin::reference {
@@ -20,6 +22,40 @@ Carver::Carver(LocalGeometry& geometry, const GroovedSurface& surface, const Gat
         }
     }
     work_.first_half.push_back(static_cast<std::uint32_t>(work_.halves.size()));
+    sort_brushes();
+}
+
+constexpr std::size_t kBins = 64;
+
+std::size_t Carver::bin_of(double x, double y) const {
+    const Box& all = gathered_.region.box;
+    const double share = along_x_ ? (x - all.low.x) / (all.high.x - all.low.x) : (y - all.low.y) / (all.high.y - all.low.y);
+    return static_cast<std::size_t>(std::clamp(share * double(kBins), 0.0, double(kBins - 1)));
+}
+
+void Carver::sort_brushes() {
+    const Box& all = gathered_.region.box;
+    along_x_ = all.high.x - all.low.x > all.high.y - all.low.y;
+    work_.bins.resize(kBins);
+    for (auto& bin : work_.bins) bin.clear();
+    work_.asked.assign(geometry_.brushes.size(), 0);
+    work_.turn = 0;
+    for (std::uint32_t b = 0; b < geometry_.brushes.size(); ++b) {
+        const Box& box = geometry_.brushes[b].box;
+        for (std::size_t i = bin_of(box.low.x, box.low.y); i <= bin_of(box.high.x, box.high.y); ++i) work_.bins[i].push_back(b);
+    }
+}
+
+void Carver::find_candidates(const Box& box) {
+    ++work_.turn;
+    work_.candidates.clear();
+    for (std::size_t i = bin_of(box.low.x, box.low.y); i <= bin_of(box.high.x, box.high.y); ++i)
+        for (const std::uint32_t b : work_.bins[i]) {
+            if (work_.asked[b] == work_.turn || !meet(geometry_.brushes[b].box, box)) continue;
+            work_.asked[b] = work_.turn;
+            work_.candidates.push_back(b);
+        }
+    std::sort(work_.candidates.begin(), work_.candidates.end());
 }
 
 Carving::Pieces Carver::pieces_of(std::uint32_t face) {
@@ -31,17 +67,43 @@ Carving::Pieces Carver::pieces_of(std::uint32_t face) {
     return pieces;
 }
 
+// The ground reaches under everything: it is halved until few brushes are left for each part.
+void Carver::carve_ground(Polygon polygon, const Face& face, std::vector<std::uint32_t> candidates, int depth) {
+    const Part whole = part_of(polygon);
+    std::erase_if(candidates, [&](std::uint32_t b) { return !meet(geometry_.brushes[b].box, whole.box); });
+    if (candidates.size() > 24 && depth < 16) {
+        const Vec2 middle = lerp(whole.box.low, whole.box.high, 0.5), extent = whole.box.high - whole.box.low;
+        const HalfSpace half = extent.x > extent.y ? HalfSpace{{1, 0, 0}, middle.x} : HalfSpace{{0, 1, 0}, middle.y};
+        Polygon first, second;
+        geometry_.points.split(polygon, half, first, second);
+        if (first && second) {
+            carve_ground(first, face, candidates, depth + 1);
+            carve_ground(second, face, std::move(candidates), depth + 1);
+            return;
+        }
+    }
+    // What other parts have left must stay.
+    std::vector<Part> others;
+    others.swap(work_.kept);
+    work_.kept.push_back(whole);
+    for (const std::uint32_t b : candidates) remove(face, b, tie(face, geometry_.brushes[b]));
+    work_.kept.insert(work_.kept.end(), others.begin(), others.end());
+}
+
 void Carver::carve(const Face& face) {
     work_.kept.clear();
+    find_candidates(face.box);
+    if (face.kind == FaceKind::ground && !face.wall && work_.candidates.size() > 24) return carve_ground(face.polygon, face, work_.candidates, 0);
     if (face.kind == FaceKind::ground)
         keep(face.polygon);
     else if (face.kind == FaceKind::add)
         keep(geometry_.points.clip(face.polygon, HalfSpace{{0, 0, -1}, -(face.level + geometry_.fine)}));
     else
         keep_solid(face);
-    for (std::size_t b = 0; b < geometry_.brushes.size() && !work_.kept.empty(); ++b) {
+    for (const std::uint32_t b : work_.candidates) {
+        if (work_.kept.empty()) break;
         const Brush& brush = geometry_.brushes[b];
-        if (!meet(brush.box, face.box) || (face.kind == FaceKind::cut && !brush.cut) || spares(face, brush)) continue;
+        if ((face.kind == FaceKind::cut && !brush.cut) || spares(face, brush)) continue;
         remove(face, b, tie(face, brush));
     }
     if (face.wall && face.kind != FaceKind::ground) keep_first_wall(face);
@@ -52,9 +114,9 @@ void Carver::keep_first_wall(const Face& face) {
     Face turned = face;
     turned.normal = face.normal * -1.0;
     const bool cut = face.kind == FaceKind::cut;
-    for (std::size_t b = 0; b < geometry_.brushes.size() && !work_.kept.empty(); ++b) {
+    for (const std::uint32_t b : work_.candidates) {
         const Brush& brush = geometry_.brushes[b];
-        if (brush.cut == cut && brush.instance < face.instance && meet(brush.box, face.box)) remove(turned, b, -geometry_.fine);
+        if (brush.cut == cut && brush.instance < face.instance) remove(turned, b, -geometry_.fine);
     }
 }
 
@@ -87,9 +149,10 @@ void Carver::keep_solid(const Face& face) {
     keep(below);
     if (!above) return;
     work_.solid.assign(1, part_of(above));
-    for (std::size_t b = 0; b < geometry_.brushes.size() && !work_.solid.empty(); ++b) {
+    for (const std::uint32_t b : work_.candidates) {
+        if (work_.solid.empty()) break;
         const Brush& brush = geometry_.brushes[b];
-        if (brush.cut || !meet(brush.box, face.box) || (brush.instance == face.instance && !face.wall)) continue;
+        if (brush.cut || (brush.instance == face.instance && !face.wall)) continue;
         work_.next.clear();
         for (const Part& p : work_.solid) keep(subtract(face, p, b, -geometry_.fine));
         work_.solid.swap(work_.next);

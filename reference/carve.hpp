@@ -28,6 +28,11 @@ struct Carving {
     std::vector<HalfSpace> halves;          // of all brushes
     std::vector<std::uint32_t> first_half;  // of each brush, and one past the last
     std::vector<Part> kept, next, solid;
+    // Brushes by where they lie along the longer side of the region.
+    std::vector<std::vector<std::uint32_t>> bins;
+    std::vector<std::uint32_t> asked;       // of each brush: for which face it was last found
+    std::vector<std::uint32_t> candidates;  // brushes whose boxes meet the face at hand, ascending
+    std::uint32_t turn = 0;
 };
 
 // Carves a face when it is first asked for: most are neither seen nor throw a shadow. All must outlive it.
@@ -42,7 +47,11 @@ class Carver {
     Polygon piece(std::uint32_t index) const { return work_.pieces[index].polygon; }
 
   private:
+    void sort_brushes();
+    std::size_t bin_of(double x, double y) const;
+    void find_candidates(const Box& box);
     void carve(const Face& face);
+    void carve_ground(Polygon polygon, const Face& face, std::vector<std::uint32_t> candidates, int depth);
     void keep_first_wall(const Face& face);
     void keep(Polygon p);
     bool overhangs(std::uint32_t instance) const;
@@ -59,6 +68,7 @@ class Carver {
     const GroovedSurface& surface_;
     const Gathered& gathered_;
     Carving& work_;
+    bool along_x_ = true;
 };
 
 }  // namespace burin::reference
