@@ -53,6 +53,8 @@ struct Instance {
 struct Gathered {
     Region region;  // in plan: what rays of the footprint may meet, and what may lie on the light's way to it
     std::vector<Instance> instances;  // ascending by element, each once; act in the region
+    bool from_top = false;            // rays start on the object surface and fall: of the ground only what they meet matters
+    Vec2 view;                        // their slope
     bool steps = false;               // a step's path line meets the region
     double lowest = 0.0;              // nothing in the region lies lower
     double highest = 0.0;             // or higher

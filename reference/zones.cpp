@@ -95,16 +95,25 @@ void split_at_borders(const GroovedSurface& surface, LocalGeometry& out) {
     }
 }
 
-void put_ground(const Zone& zone, LocalGeometry& out) {
+// It neither hides nor shades: only what rays meet of it is put.
+void put_ground(const GroovedSurface& surface, const Gathered& gathered, const Zone& zone, LocalGeometry& out) {
+    Polygon polygon = zone.polygon;
+    if (gathered.from_top) {
+        const std::uint32_t mark = out.plan.mark();
+        for (const Vec2 p : gathered.region.footprint.corners) out.plan.add(p + gathered.view * (surface.top() - zone.level));
+        const Polygon met = out.plan.close(mark);
+        for (std::uint32_t i = 0; polygon && i < met.count; ++i) polygon = out.plan.clip(polygon, edge_of(out.plan, met, i));
+        if (!is_solid(out.plan, polygon)) return;
+    }
     Face face;
     face.facet = kGround;
     face.instance = kGround;
     face.level = zone.level;
     face.normal = {0, 0, 1};
-    face.box = zone.box;
+    face.box = box_of(out.plan, polygon);
     const std::uint32_t from = out.points.mark();
-    for (std::uint32_t i = 0; i < zone.polygon.count; ++i) {
-        const Vec2 p = out.plan(zone.polygon, i);
+    for (std::uint32_t i = 0; i < polygon.count; ++i) {
+        const Vec2 p = out.plan(polygon, i);
         out.points.add({p.x, p.y, zone.level});
     }
     face.polygon = out.points.close(from);
@@ -174,7 +183,7 @@ void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const
         zone.box = box_of(out.plan, zone.polygon);
         zone.first_edge = static_cast<std::uint32_t>(out.edges.size());
         for (std::uint32_t i = 0; i < zone.polygon.count; ++i) out.edges.push_back(edge_of(out.plan, zone.polygon, i));
-        put_ground(zone, out);
+        put_ground(surface, gathered, zone, out);
     }
     if (gathered.steps)
         for_each_chord(surface, gathered, options, [&](Vec2 a, Vec2 b, const PreparedElement& e, std::uint32_t instance) {
