@@ -185,6 +185,17 @@ Result<PictureSize> draw_view(const Arguments& arguments, const Asset& asset, Wr
     return PictureSize{options.width, options.height};
 }
 
+// What the asset has and the renderer on the CPU does not show, so that nobody takes it for missing; "" when there is nothing.
+std::string left_out_of(const Asset& asset) {
+    bool textures = false, residual = false;
+    for (const MaterialInfo& material : asset.materials) {
+        for (const MaterialTexture* texture : {&material.base_color_texture, &material.metallic_roughness_texture, &material.occlusion_texture, &material.emissive_texture})
+            textures = textures || texture->image;
+        residual = residual || material.residual.width > 0;
+    }
+    return std::string(textures ? "textures of materials" : "") + (textures && residual ? ", " : "") + (residual ? "residual" : "");
+}
+
 Result<PictureSize> draw_reference(const Arguments& arguments, const Asset& asset, std::optional<Field>& said, Writer& write) {
     reference::ReferenceOptions options;
     options.view = render_options(arguments);
@@ -198,10 +209,12 @@ Result<PictureSize> draw_reference(const Arguments& arguments, const Asset& asse
     if (!picture) return picture.error();
     line.finish();
     const auto count = [](long value) { return static_cast<std::int64_t>(value); };
+    const std::string left_out = left_out_of(asset);
     said = group("footprints", "footprints",
                  {{"all", "all", count(picture->stats.footprints), ""},
                   {"by_line", "by line sampling", count(picture->stats.by_line), ""},
-                  {"by_area", "by area sampling", count(picture->stats.by_area), ""}});
+                  {"by_area", "by area sampling", count(picture->stats.by_area), ""},
+                  {"left_out", "left out", left_out, left_out.empty() ? "nothing" : ""}});
     write = [image = picture->image()](const std::string& path) { return write_png(path, image); };
     return PictureSize{options.view.width, options.view.height};
 }
