@@ -28,8 +28,7 @@ class Sampler {
         const Polygon whole = work_.plane.close(from);
         for_each_shown(box, eye_, [&](Shown shown) {
             const double facing = eye_.facing(geometry_.faces[shown.face].normal);
-            for (std::uint32_t i = 0; shown.polygon && i < whole.count; ++i)
-                shown.polygon = work_.plane.clip(shown.polygon, edge_of(work_.plane, whole, i));
+            shown.polygon = clip_to(work_.plane, shown.polygon, whole);
             if (!is_solid(work_.plane, shown.polygon) || !lies_before(shown)) return;
             shown.box = box_of(work_.plane, shown.polygon);
             (facing > 0.0 ? work_.front : work_.hiding).push_back(shown);
@@ -149,13 +148,7 @@ class Sampler {
         work_.next.clear();
         for (const Polygon p : work_.kept) {
             const std::size_t before = work_.next.size();
-            Polygon rest = p;
-            for (std::uint32_t i = 0; rest && i < other.polygon.count; ++i) {
-                Polygon inside, outside;
-                work_.plane.split(rest, edge_of(work_.plane, other.polygon, i), inside, outside);
-                if (outside) work_.next.push_back(outside);
-                rest = inside;
-            }
+            const Polygon rest = cut_out(work_.plane, p, other.polygon, work_.next);
             if (rest && nearer(other.face, index, burin::reference::middle_of(work_.plane, rest), direction)) continue;
             work_.next.resize(before);
             work_.next.push_back(p);

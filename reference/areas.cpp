@@ -11,7 +11,8 @@ namespace {
 constexpr int kMostHalvings = 16;
 
 // What hides and shades comes from afar where view or light are low: it may be coarser there.
-double tolerance_in(const Region& region, const AreasOptions& options, double width) {
+double tolerance_in(const Region& region, const AreasOptions& options, double area) {
+    const double width = options.width > 0.0 ? options.width : std::sqrt(area);
     return options.tolerance * std::max(width, 0.02 * std::max(region.box.high.x - region.box.low.x, region.box.high.y - region.box.low.y));
 }
 
@@ -22,8 +23,8 @@ class Finder {
 
     void find(const Footprint& footprint, int halvings) {
         gather_grooves(surface_, footprint, slopes_, work_.gathered);
-        const double tolerance = tolerance_for(footprint);
-        if (!options_.corners && work_.gathered.instances.empty() && is_plain()) return find_plain(footprint);
+        const double tolerance = tolerance_in(work_.gathered.region, options_, area_of(footprint));
+        if (!options_.corners && work_.gathered.instances.empty() && is_inside_map(surface_, work_.gathered.region)) return find_plain(footprint);
         if (options_.lines && !options_.corners && sample_lines(surface_, work_.gathered, footprint, slopes_, tolerance, whole_, work_.line, out_)) {
             ++work_.by_line;
             return;
@@ -48,21 +49,11 @@ class Finder {
     }
 
   private:
-    double tolerance_for(const Footprint& footprint) const {
-        return tolerance_in(work_.gathered.region, options_, options_.width > 0.0 ? options_.width : std::sqrt(area_of(footprint)));
-    }
     // Many elements, and fewer of them near a half: not where what matters is long for the sake of low view or light.
     bool is_worth_halving(const Footprint& footprint) const {
         if (static_cast<int>(work_.gathered.instances.size()) <= options_.most_elements) return false;
         const Box own = box_of(footprint), &all = work_.gathered.region.box;
         return std::max(own.high.x - own.low.x, own.high.y - own.low.y) > 0.4 * std::max(all.high.x - all.low.x, all.high.y - all.low.y);
-    }
-    // Nothing but one level of ground.
-    bool is_plain() const {
-        const Vec2 size = surface_.pattern().size;
-        const Box& domain = work_.gathered.region.box;
-        return surface_.pattern().wrap == Wrap::repeat ||
-               !(domain.low.x < 0.0 || domain.low.y < 0.0 || domain.high.x > size.x || domain.high.y > size.y);
     }
     void find_plain(const Footprint& footprint) {
         const Vec2 middle = middle_of(footprint);
@@ -117,8 +108,7 @@ double find_hits(const GroovedSurface& surface, const Beam& beam, const Slopes& 
     if (!(request.whole > 0.0)) return 1.0;
     gather_grooves(surface, plan_of, request.slopes, start, work.gathered);
     if (start.rising && start.low >= work.gathered.highest) return 1.0;
-    sweep_grooves(surface, work.gathered, {tolerance_in(work.gathered.region, options, options.width > 0.0 ? options.width : std::sqrt(request.whole))},
-                  work.geometry);
+    sweep_grooves(surface, work.gathered, {tolerance_in(work.gathered.region, options, request.whole)}, work.geometry);
     Carver carver(work.geometry, surface, work.gathered, work.carving);
     request.footprint = &shown;
     request.normal = beam.normal;

@@ -7,7 +7,6 @@
 // grooves meet or end, faces are polygons (area sampling, [2008] 6). Large footprints with many grooves are divided.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "area_sampling.hpp"

@@ -61,11 +61,11 @@ void CoverageMap::add_triangle(const Asset& asset, std::uint32_t primitive, std:
     if (triangle.low[0] <= triangle.high[0] && triangle.low[1] <= triangle.high[1]) triangles_.push_back(triangle);
 }
 
-void CoverageMap::cover_pixel(int x, int y, CoverageWork& work) const {
+// The parts of triangles that lie in the pixel, nearest first.
+void CoverageMap::touch_pixel(int x, int y, CoverageWork& work) const {
     work.plane.clear();
     work.plane.thin = 1e-10;
     work.touched.clear();
-    work.seen.clear();
     for (const std::uint32_t i : tiles_[std::size_t(y / kTileSide) * std::size_t(columns_) + std::size_t(x / kTileSide)]) {
         const ScreenTriangle& t = triangles_[i];
         if (x < t.low[0] || x > t.high[0] || y < t.low[1] || y > t.high[1]) continue;
@@ -83,21 +83,17 @@ void CoverageMap::cover_pixel(int x, int y, CoverageWork& work) const {
         work.touched.push_back({&t, p, glm::dot(weights, t.depth) / glm::dot(weights, t.w)});
     }
     std::stable_sort(work.touched.begin(), work.touched.end(), [](const Covered& a, const Covered& b) { return a.depth < b.depth; });
+}
+
+void CoverageMap::cover_pixel(int x, int y, CoverageWork& work) const {
+    touch_pixel(x, y, work);
+    work.seen.clear();
     double rest = 1.0;
     for (std::size_t i = 0; i < work.touched.size() && rest > 1e-9; ++i) {
         work.kept.assign(1, work.touched[i].polygon);
         for (std::size_t k = 0; k < i; ++k) {
             work.next.clear();
-            for (const Polygon p : work.kept) {
-                Polygon inside = p;
-                const Polygon other = work.touched[k].polygon;
-                for (std::uint32_t e = 0; inside && e < other.count; ++e) {
-                    Polygon in, out;
-                    work.plane.split(inside, edge_of(work.plane, other, e), in, out);
-                    if (out) work.next.push_back(out);
-                    inside = in;
-                }
-            }
+            for (const Polygon p : work.kept) cut_out(work.plane, p, work.touched[k].polygon, work.next);
             work.kept.swap(work.next);
         }
         for (const Polygon p : work.kept) {

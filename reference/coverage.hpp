@@ -56,6 +56,7 @@ class CoverageMap {
     void cover_pixel(int x, int y, CoverageWork& work) const;
 
   private:
+    void touch_pixel(int x, int y, CoverageWork& work) const;
     void add_triangle(const Asset& asset, std::uint32_t primitive, std::uint32_t first, const glm::dmat4& world_to_clip);
 
     int width_, height_, columns_, rows_;

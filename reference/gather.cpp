@@ -58,14 +58,15 @@ bool strip_meets(const PreparedElement& e, Vec2 shift, const Region& region) {
     return at + e.reach >= low && at - e.reach <= high;
 }
 
+std::size_t cell_at(const CellGrid& grid, int i, int j) {
+    return static_cast<std::size_t>(wrapped(j, grid.rows)) * static_cast<std::size_t>(grid.cols) + static_cast<std::size_t>(wrapped(i, grid.cols));
+}
+
 template <typename Visit>
 void for_each_cell(const GroovedSurface& surface, const Box& box, const Visit& visit) {
     const CellRange range = cells_of(surface, box);
-    const CellGrid& grid = surface.grid();
     for (int j = range.low[1]; j <= range.high[1]; ++j)
-        for (int i = range.low[0]; i <= range.high[0]; ++i)
-            visit(i, j, static_cast<std::size_t>(wrapped(j, grid.rows)) * static_cast<std::size_t>(grid.cols) +
-                            static_cast<std::size_t>(wrapped(i, grid.cols)));
+        for (int i = range.low[0]; i <= range.high[0]; ++i) visit(i, j, cell_at(surface.grid(), i, j));
 }
 
 void bound_heights(const GroovedSurface& surface, Gathered& out) {
@@ -148,14 +149,17 @@ void gather_grooves(const GroovedSurface& surface, const Footprint& footprint, c
                         out.instances.end());
 }
 
+bool is_inside_map(const GroovedSurface& surface, const Region& region) {
+    return truth::inside_map(surface.truth().prepared(), region.box.low) && truth::inside_map(surface.truth().prepared(), region.box.high);
+}
+
 double ground_near(const GroovedSurface& surface, Vec2 p) {
     const ResolvedPattern& pattern = surface.pattern();
     const CellGrid& grid = surface.grid();
-    if (pattern.wrap == Wrap::clamp && (p.x < 0.0 || p.y < 0.0 || p.x > pattern.size.x || p.y > pattern.size.y)) return pattern.outer_level;
+    if (!truth::inside_map(surface.truth().prepared(), p)) return pattern.outer_level;
     const CellRange at = cells_of(surface, {p, p});
     const int i = at.low[0], j = at.low[1];
-    const std::size_t cell = static_cast<std::size_t>(wrapped(j, grid.rows)) * static_cast<std::size_t>(grid.cols) +
-                             static_cast<std::size_t>(wrapped(i, grid.cols));
+    const std::size_t cell = cell_at(grid, i, j);
     if ((grid.flags[cell] & BURIN_CELL_FLAG_STEP) == 0) return grid.level[cell];
     const Vec2 side{pattern.size.x / grid.cols, pattern.size.y / grid.rows}, place = cell_start(grid.start[cell]);
     const Vec2 start{(i + 0.5 + place.x) * side.x, (j + 0.5 + place.y) * side.y}, way = p - start;

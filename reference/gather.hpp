@@ -66,6 +66,9 @@ void gather_grooves(const GroovedSurface& surface, const Footprint& footprint, c
 // where they start and may have no area.
 void gather_grooves(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const Start& start, Gathered& out);
 
+// Whether all of the region lies where the pattern is: everywhere when it repeats.
+bool is_inside_map(const GroovedSurface& surface, const Region& region);
+
 // The ground at p, by the cell's own rule (grid.hpp). Cost: the steps of one cell.
 double ground_near(const GroovedSurface& surface, Vec2 p);
 

@@ -70,7 +70,9 @@ class Crosser {
         crossed.instance = i;
         crossed.turned = dot(t, axes.t) < 0.0;
         crossed.at = dot(truth::point_on(e, u) + shift - axes.origin, axes.n) + slant(e, u, shift);
-        return set_section(e, crossed, shift) ? (work_.crossed.push_back(crossed), true) : false;
+        if (!set_section(e, crossed, shift)) return false;
+        work_.crossed.push_back(crossed);
+        return true;
     }
     // A line that leans a little is met in the middle of what matters.
     double slant(const PreparedElement& e, double u, Vec2 shift) const {
@@ -272,10 +274,7 @@ double OffsetTable::below(double offset) const {
 
 bool sample_lines(const GroovedSurface& surface, const Gathered& gathered, const Footprint& footprint, const Slopes& slopes, double tolerance,
                   double whole, LineSampling& work, std::vector<Share>& out) {
-    const Vec2 size = surface.pattern().size;
-    const Box& domain = gathered.region.box;
-    if (surface.pattern().wrap == Wrap::clamp && (domain.low.x < 0.0 || domain.low.y < 0.0 || domain.high.x > size.x || domain.high.y > size.y))
-        return false;
+    if (!is_inside_map(surface, gathered.region)) return false;
     Crosser crosser(surface, gathered, tolerance, work);
     if (!crosser.cross_all()) return false;
     crosser.build_segments();

@@ -157,4 +157,21 @@ inline HalfPlane edge_of(const Polygons<Vec2>& pool, Polygon p, std::uint32_t i)
     return {n, dot(n, a)};
 }
 
+// What of p lies inside of another convex polygon.
+inline Polygon clip_to(Polygons<Vec2>& pool, Polygon p, Polygon other) {
+    for (std::uint32_t i = 0; p && i < other.count; ++i) p = pool.clip(p, edge_of(pool, other, i));
+    return p;
+}
+
+// The same; what lies outside is added to `outside`, in convex parts.
+inline Polygon cut_out(Polygons<Vec2>& pool, Polygon p, Polygon other, std::vector<Polygon>& outside) {
+    for (std::uint32_t i = 0; p && i < other.count; ++i) {
+        Polygon inside, rest;
+        pool.split(p, edge_of(pool, other, i), inside, rest);
+        if (rest) outside.push_back(rest);
+        p = inside;
+    }
+    return p;
+}
+
 }  // namespace burin::reference

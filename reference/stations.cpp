@@ -1,3 +1,4 @@
+#include "evaluate_prepare.hpp"
 #include "stations.hpp"
 
 #include <algorithm>
@@ -63,9 +64,10 @@ struct EndMaker {
     void corner(const PreparedEnd& end) {
         const bool left = end.priority == Priority::left;
         if (end.corner == CornerShape::mitre) return put(Station::Kind::clip, left, !left);
-        put(Station::Kind::across);
-        if (end.corner == CornerShape::bevel) return put(Station::Kind::bevel, left, !left);
-        made.pop_back();
+        if (end.corner == CornerShape::bevel) {
+            put(Station::Kind::across);
+            return put(Station::Kind::bevel, left, !left);
+        }
         // The clip line's own direction on the outer side.
         const Station station = base();
         const Vec2 side = station.n * (left ? -1.0 : 1.0);
@@ -97,10 +99,8 @@ struct Divider {
 
     bool is_far(const Station& a, const Station& b) const {
         Box box;
-        for (const Station* s : {&a, &b}) {
-            include(box, s->origin);
-            include(box, s->origin);
-        }
+        include(box, a.origin);
+        include(box, b.origin);
         // The arc bulges by no more than half of what the control polygon does.
         const double bulge = e.kind == ElementKind::quadratic ? length(e.bend) * (b.u - a.u) * (b.u - a.u) : 0.0;
         const Vec2 margin{e.reach + bulge, e.reach + bulge};
@@ -122,8 +122,8 @@ struct Divider {
             const Station middle = across(e, shift, 0.5 * (a.u + b.u));
             const double rise = std::abs(middle.height - 0.5 * (a.height + b.height)) * options.deep;
             const bool coarse = depth < 2 && e.function != nullptr;  // a wave may be met in its nodes
-            if (coarse || rise > options.tolerance || twist(a, b, low) > options.tolerance || twist(a, b, high) > options.tolerance || off_chord(a, b, middle, low) > options.tolerance ||
-                off_chord(a, b, middle, high) > options.tolerance) {
+            const double off = std::max({rise, twist(a, b, low), twist(a, b, high), off_chord(a, b, middle, low), off_chord(a, b, middle, high)});
+            if (coarse || off > options.tolerance) {
                 divide(a, middle, depth + 1);
                 divide(middle, b, depth + 1);
                 return;

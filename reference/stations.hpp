@@ -2,7 +2,10 @@
 #pragma once
 
 #include "gather.hpp"
-#include "evaluate_prepare.hpp"
+
+namespace burin {
+struct PreparedElement;  // lib/src/evaluate_prepare.hpp
+}
 
 namespace burin::reference {
 

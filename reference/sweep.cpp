@@ -1,15 +1,20 @@
 #include "sweep.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "evaluate_prepare.hpp"
 #include "stations.hpp"
 #include "zones.hpp"
+
+#include "layout.h"
 
 namespace burin::reference {
 namespace {
 
-constexpr std::size_t kMostLines = 48;
+// As many values of b as a profile has points, and 0.
+constexpr std::size_t kMostLines = BURIN_MAX_PROFILE_POINTS + 1;
 
 // Four corners of what is swept between two stations and two lines, and heights there:
 // 0 (a, low line), 1 (b, low), 2 (b, high), 3 (a, high); from x towards y.
@@ -46,7 +51,7 @@ Plane plane_of(const Quad& q) {
 class Sweeper {
   public:
     Sweeper(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out)
-        : surface_(surface), gathered_(gathered), options_(options), out_(out) {}
+        : surface_(surface), gathered_(gathered), options_(options), out_(out), stations_(out.stations) {}
 
     void sweep(std::uint32_t index) {
         const Instance& instance = gathered_.instances[index];
@@ -71,9 +76,9 @@ class Sweeper {
     }
 
     void sweep_between(const Station& a, const Station& b) {
-        const std::size_t count = std::min(profile_->lines.size(), kMostLines);
+        assert(profile_->lines.size() <= kMostLines);
         Box box;
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < profile_->lines.size(); ++i) {
             at_a_[i] = a.at(profile_->lines[i] * a.width);
             at_b_[i] = b.at(profile_->lines[i] * b.width);
             include(box, at_a_[i]);
@@ -174,11 +179,8 @@ class Sweeper {
         face.polygon = out_.points.close(from);
         face.normal = normal;
         if (!gathered_.region.meets(face.box)) return;
-        double low = 1e300, high = -1e300;
-        for (int i = 0; i < count; ++i) {
-            low = std::min(low, p[i].z);
-            high = std::max(high, p[i].z);
-        }
+        double high = -1e300;
+        for (int i = 0; i < count; ++i) high = std::max(high, p[i].z);
         face.kind = FaceKind::add;
         if (high > face.level + out_.fine) limit_to_zones(out_, face);
         face.kind = FaceKind::cut;
@@ -213,15 +215,7 @@ class Sweeper {
         if (length(q - p) <= out_.fine) return;
         const double edge = kind == FaceKind::cut ? std::max({gathered_.highest, zp, zq}) : level;
         Face face = face_of(kind, kWall, level);
-        face.wall = true;
-        const std::uint32_t from = out_.points.mark();
-        for (const Vec3 corner : {Vec3{p.x, p.y, zp}, Vec3{q.x, q.y, zq}, Vec3{q.x, q.y, edge}, Vec3{p.x, p.y, edge}}) {
-            out_.points.add(corner);
-            include(face.box, plan(corner));
-        }
-        face.polygon = out_.points.close(from);
-        const double sign = kind == FaceKind::cut ? -1.0 : 1.0;
-        face.normal = {outward.x * sign, outward.y * sign, 0.0};
+        raise_wall(out_, face, {p.x, p.y, zp}, {q.x, q.y, zq}, edge, kind == FaceKind::cut ? -outward : outward);
         if (gathered_.region.meets(face.box)) limit_to_zones(out_, face);
     }
 
@@ -299,7 +293,7 @@ class Sweeper {
     std::uint32_t instance_ = 0;
     const PreparedElement* element_ = nullptr;
     const SlabbedProfile* profile_ = nullptr;
-    Stations stations_;
+    Stations& stations_;
     Vec2 at_a_[kMostLines], at_b_[kMostLines];
 };
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "gather.hpp"
+#include "stations.hpp"
 
 namespace burin::reference {
 
@@ -49,11 +50,19 @@ struct Zone {
     std::uint32_t first_edge = 0;  // into LocalGeometry::edges, one for each corner
 };
 
+// A straight piece of a step's path line.
+struct Chord {
+    Vec2 a, b;
+    std::uint32_t instance = 0;
+};
+
 struct LocalGeometry {
     Polygons<Vec3> points;
     Polygons<Vec2> plan;
     std::vector<Zone> zones;
     std::vector<HalfPlane> edges;  // of zones
+    std::vector<Chord> chords;     // of all steps that are near
+    Stations stations;             // of the element at hand
     std::vector<Brush> brushes;
     std::vector<Face> faces;
     double fine = 0.0;  // heights and places nearer than this are equal, metres

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluate_prepare.hpp"
 #include "stations.hpp"
 
 namespace burin::reference {
@@ -31,6 +32,18 @@ Stretch stretch_inside(const LocalGeometry& out, const Zone& zone, Vec2 a, Vec2 
     return stretch_between(zone.polygon.count, [&](std::uint32_t i) { return out.edges[zone.first_edge + i]; }, out.fine, a, b);
 }
 
+void raise_wall(LocalGeometry& out, Face& face, Vec3 a, Vec3 b, double to, Vec2 toward) {
+    face.wall = true;
+    face.normal = {toward.x, toward.y, 0.0};
+    face.box = {};
+    const std::uint32_t from = out.points.mark();
+    for (const Vec3 corner : {a, b, Vec3{b.x, b.y, to}, Vec3{a.x, a.y, to}}) {
+        out.points.add(corner);
+        include(face.box, plan(corner));
+    }
+    face.polygon = out.points.close(from);
+}
+
 namespace {
 
 // The region's box without the corners that low view and light leave far from it.
@@ -51,47 +64,41 @@ Polygon overlap(LocalGeometry& out, Polygon p, const Zone& zone) {
     return is_solid(out.plan, p) ? p : Polygon{};
 }
 
-void split_zones(LocalGeometry& out, const HalfPlane& line, Vec2 a, Vec2 b) {
-    const std::size_t count = out.zones.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const Polygon p = out.zones[i].polygon;
-        const Stretch part = stretch_between(p.count, [&](std::uint32_t k) { return edge_of(out.plan, p, k); }, out.fine, a, b);
-        if (part.low >= part.high) continue;
-        Polygon inside, outside;
-        out.plan.split(out.zones[i].polygon, line, inside, outside);
-        if (!inside || !outside) continue;
-        out.zones[i].polygon = inside;
-        out.zones.push_back({outside, 0.0, {}, false, 0});
-    }
+void split_zone(LocalGeometry& out, std::size_t i, const HalfPlane& line) {
+    Polygon inside, outside;
+    out.plan.split(out.zones[i].polygon, line, inside, outside);
+    if (!inside || !outside) return;
+    out.zones[i].polygon = inside;
+    out.zones.push_back({outside, 0.0, {}, false, 0});
 }
 
-// Calls visit(a, b, element, instance) for every straight piece of a step's path line in the domain.
-template <typename Visit>
-void for_each_chord(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, const Visit& visit) {
-    Stations stations;
-    for (std::uint32_t i = 0; i < gathered.instances.size(); ++i) {
-        const Instance& instance = gathered.instances[i];
-        const PreparedElement& e = surface.truth().prepared().elements[instance.element];
-        if (!e.step) continue;
-        place_stations(e, surface.pattern().elements[instance.element], instance.shift, {&gathered.region, options.tolerance, 0.0}, stations);
-        for (std::size_t k = 0; k + 1 < stations.list.size(); ++k) {
-            const Vec2 a = stations.list[k].origin, b = stations.list[k + 1].origin;
-            if (length(b - a) > 0.0) visit(a, b, e, i);
-        }
+// Those that the chord runs through.
+void split_zones(LocalGeometry& out, const Chord& chord) {
+    const Vec2 n = normal_of(unit(chord.b - chord.a));
+    for (std::size_t i = 0, count = out.zones.size(); i < count; ++i) {
+        const Polygon p = out.zones[i].polygon;
+        const Stretch part = stretch_between(p.count, [&](std::uint32_t k) { return edge_of(out.plan, p, k); }, out.fine, chord.a, chord.b);
+        if (part.low < part.high) split_zone(out, i, {n, dot(n, chord.a)});
     }
 }
 
 void split_at_borders(const GroovedSurface& surface, LocalGeometry& out) {
     const Vec2 size = surface.pattern().size;
-    for (const HalfPlane& border : {HalfPlane{{-1, 0}, 0}, HalfPlane{{0, -1}, 0}, HalfPlane{{1, 0}, size.x}, HalfPlane{{0, 1}, size.y}}) {
-        const std::size_t count = out.zones.size();
-        for (std::size_t i = 0; i < count; ++i) {
-            Polygon inside, outside;
-            out.plan.split(out.zones[i].polygon, border, inside, outside);
-            if (!inside || !outside) continue;
-            out.zones[i].polygon = inside;
-            out.zones.push_back({outside, 0.0, {}, false, 0});
-        }
+    for (const HalfPlane& border : {HalfPlane{{-1, 0}, 0}, HalfPlane{{0, -1}, 0}, HalfPlane{{1, 0}, size.x}, HalfPlane{{0, 1}, size.y}})
+        for (std::size_t i = 0, count = out.zones.size(); i < count; ++i) split_zone(out, i, border);
+}
+
+void find_chords(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
+    out.chords.clear();
+    if (!gathered.steps) return;
+    for (std::uint32_t i = 0; i < gathered.instances.size(); ++i) {
+        const Instance& instance = gathered.instances[i];
+        const PreparedElement& e = surface.truth().prepared().elements[instance.element];
+        if (!e.step) continue;
+        const auto& list = out.stations.list;
+        place_stations(e, surface.pattern().elements[instance.element], instance.shift, {&gathered.region, options.tolerance, 0.0}, out.stations);
+        for (std::size_t k = 0; k + 1 < list.size(); ++k)
+            if (length(list[k + 1].origin - list[k].origin) > 0.0) out.chords.push_back({list[k].origin, list[k + 1].origin, i});
     }
 }
 
@@ -102,7 +109,7 @@ void put_ground(const GroovedSurface& surface, const Gathered& gathered, const Z
         const std::uint32_t mark = out.plan.mark();
         for (const Vec2 p : gathered.region.footprint.corners) out.plan.add(p + gathered.view * (surface.top() - zone.level));
         const Polygon met = out.plan.close(mark);
-        for (std::uint32_t i = 0; polygon && i < met.count; ++i) polygon = out.plan.clip(polygon, edge_of(out.plan, met, i));
+        polygon = clip_to(out.plan, polygon, met);
         if (!is_solid(out.plan, polygon)) return;
     }
     Face face;
@@ -123,17 +130,10 @@ void put_ground(const GroovedSurface& surface, const Gathered& gathered, const Z
 // Between the levels on both sides of a line from a to b. `outward` points to the lower.
 void put_ground_wall(Vec2 a, Vec2 b, Vec2 outward, double low, double high, std::uint32_t facet, std::uint32_t instance, LocalGeometry& out) {
     Face face;
-    face.wall = true;
     face.instance = instance;
     face.facet = facet;
     face.level = low;
-    face.normal = {outward.x, outward.y, 0.0};
-    const std::uint32_t from = out.points.mark();
-    for (const Vec3 corner : {Vec3{a.x, a.y, low}, Vec3{b.x, b.y, low}, Vec3{b.x, b.y, high}, Vec3{a.x, a.y, high}}) {
-        out.points.add(corner);
-        include(face.box, plan(corner));
-    }
-    face.polygon = out.points.close(from);
+    raise_wall(out, face, {a.x, a.y, low}, {b.x, b.y, low}, high, outward);
     out.faces.push_back(face);
 }
 
@@ -171,24 +171,21 @@ void put_border_walls(const GroovedSurface& surface, LocalGeometry& out) {
 void divide_zones(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
     out.zones.push_back({polygon_of(out, gathered.region), 0.0, {}, false, 0});
     if (surface.pattern().wrap == Wrap::clamp) split_at_borders(surface, out);
-    if (gathered.steps)
-        for_each_chord(surface, gathered, options, [&](Vec2 a, Vec2 b, const PreparedElement&, std::uint32_t) {
-            const Vec2 n = normal_of(unit(b - a));
-            split_zones(out, {n, dot(n, a)}, a, b);
-        });
+    find_chords(surface, gathered, options, out);
+    for (const Chord& chord : out.chords) split_zones(out, chord);
     for (Zone& zone : out.zones) {
-        const Vec2 middle = middle_of(out.plan, zone.polygon), size = surface.pattern().size;
+        const Vec2 middle = middle_of(out.plan, zone.polygon);
         zone.level = ground_near(surface, middle);
-        zone.outside = surface.pattern().wrap == Wrap::clamp && (middle.x < 0.0 || middle.y < 0.0 || middle.x > size.x || middle.y > size.y);
+        zone.outside = !truth::inside_map(surface.truth().prepared(), middle);
         zone.box = box_of(out.plan, zone.polygon);
         zone.first_edge = static_cast<std::uint32_t>(out.edges.size());
         for (std::uint32_t i = 0; i < zone.polygon.count; ++i) out.edges.push_back(edge_of(out.plan, zone.polygon, i));
         put_ground(surface, gathered, zone, out);
     }
-    if (gathered.steps)
-        for_each_chord(surface, gathered, options, [&](Vec2 a, Vec2 b, const PreparedElement& e, std::uint32_t instance) {
-            put_ground_walls(a, b, facet_on_line(surface.profiles()[e.profile]), instance, out);
-        });
+    for (const Chord& chord : out.chords) {
+        const auto& e = surface.truth().prepared().elements[gathered.instances[chord.instance].element];
+        put_ground_walls(chord.a, chord.b, facet_on_line(surface.profiles()[e.profile]), chord.instance, out);
+    }
     if (surface.pattern().wrap == Wrap::clamp && out.zones.size() > 1) put_border_walls(surface, out);
 }
 
@@ -224,18 +221,9 @@ Polygon inside_zone(LocalGeometry& out, Polygon p, const Zone& zone) {
 // The wall over, or under, the edge from a to b of a face that ends at a zone of another level.
 void wall_edge(LocalGeometry& out, const Face& face, Vec3 a, Vec3 b, Vec2 outward, double level, double far) {
     Face wall = face;
-    wall.wall = true;
     wall.facet = kWall;
-    const double sign = face.kind == FaceKind::cut ? -1.0 : 1.0;
-    wall.normal = {outward.x * sign, outward.y * sign, 0.0};
     wall.level = level;
-    wall.box = {};
-    const std::uint32_t from = out.points.mark();
-    for (const Vec3 corner : {a, b, Vec3{b.x, b.y, far}, Vec3{a.x, a.y, far}}) {
-        out.points.add(corner);
-        include(wall.box, plan(corner));
-    }
-    wall.polygon = out.points.close(from);
+    raise_wall(out, wall, a, b, far, face.kind == FaceKind::cut ? -outward : outward);
     out.faces.push_back(wall);
 }
 

@@ -22,4 +22,7 @@ Stretch stretch_inside(const LocalGeometry& out, const Zone& zone, Vec2 a, Vec2 
 void limit_to_zones(LocalGeometry& out, const Brush& brush, double level);
 void limit_to_zones(LocalGeometry& out, const Face& face);
 
+// Makes the face an upright wall between the edge from a to b and the height `to`, and looks to `toward`.
+void raise_wall(LocalGeometry& out, Face& face, Vec3 a, Vec3 b, double to, Vec2 toward);
+
 }  // namespace burin::reference
