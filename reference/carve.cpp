@@ -1,10 +1,13 @@
 #include "carve.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "evaluate_prepare.hpp"
 
 namespace burin::reference {
+
+constexpr std::size_t kBins = 64;
 
 Carver::Carver(LocalGeometry& geometry, const GroovedSurface& surface, const Gathered& gathered, Carving& work)
     : geometry_(geometry), surface_(surface), gathered_(gathered), work_(work) {
@@ -24,8 +27,6 @@ Carver::Carver(LocalGeometry& geometry, const GroovedSurface& surface, const Gat
     work_.first_half.push_back(static_cast<std::uint32_t>(work_.halves.size()));
     sort_brushes();
 }
-
-constexpr std::size_t kBins = 64;
 
 std::size_t Carver::bin_of(double x, double y) const {
     const Box& all = gathered_.region.box;
@@ -67,25 +68,26 @@ Carving::Pieces Carver::pieces_of(std::uint32_t face) {
     return pieces;
 }
 
-// The ground reaches under everything: it is halved until few brushes are left for each part.
-void Carver::carve_ground(Polygon polygon, const Face& face, std::vector<std::uint32_t> candidates, int depth) {
-    const Part whole = part_of(polygon);
-    std::erase_if(candidates, [&](std::uint32_t b) { return !meet(geometry_.brushes[b].box, whole.box); });
+// The ground reaches under everything: it is halved until few brushes are left for each part, or as many as before: long ones, aslant.
+void Carver::carve_ground(Polygon polygon, const Face& face, const std::vector<std::uint32_t>& candidates, int depth) {
     if (candidates.size() > 24 && depth < 16) {
+        const Part whole = part_of(polygon);
         const Vec2 middle = lerp(whole.box.low, whole.box.high, 0.5), extent = whole.box.high - whole.box.low;
-        const HalfSpace half = extent.x > extent.y ? HalfSpace{{1, 0, 0}, middle.x} : HalfSpace{{0, 1, 0}, middle.y};
-        Polygon first, second;
-        geometry_.points.split(polygon, half, first, second);
-        if (first && second) {
-            carve_ground(first, face, candidates, depth + 1);
-            carve_ground(second, face, std::move(candidates), depth + 1);
+        Polygon parts[2];
+        geometry_.points.split(polygon, extent.x > extent.y ? HalfSpace{{1, 0, 0}, middle.x} : HalfSpace{{0, 1, 0}, middle.y}, parts[0], parts[1]);
+        std::vector<std::uint32_t> near[2];
+        for (int k = 0; k < 2; ++k)
+            std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(near[k]),
+                         [&, box = part_of(parts[k]).box](std::uint32_t b) { return meet(geometry_.brushes[b].box, box); });
+        if (parts[0] && parts[1] && 2 * (near[0].size() + near[1].size()) < 3 * candidates.size()) {
+            for (int k = 0; k < 2; ++k) carve_ground(parts[k], face, near[k], depth + 1);
             return;
         }
     }
     // What other parts have left must stay.
     std::vector<Part> others;
     others.swap(work_.kept);
-    work_.kept.push_back(whole);
+    keep(polygon);
     for (const std::uint32_t b : candidates) remove(face, b, tie(face, geometry_.brushes[b]));
     work_.kept.insert(work_.kept.end(), others.begin(), others.end());
 }

@@ -51,7 +51,7 @@ class Carver {
     std::size_t bin_of(double x, double y) const;
     void find_candidates(const Box& box);
     void carve(const Face& face);
-    void carve_ground(Polygon polygon, const Face& face, std::vector<std::uint32_t> candidates, int depth);
+    void carve_ground(Polygon polygon, const Face& face, const std::vector<std::uint32_t>& candidates, int depth);
     void keep_first_wall(const Face& face);
     void keep(Polygon p);
     bool overhangs(std::uint32_t instance) const;
