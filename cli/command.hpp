@@ -36,6 +36,7 @@ ExitCode run_vectorize(const Arguments& arguments);
 ExitCode run_render(const Arguments& arguments);
 ExitCode run_check(const Arguments& arguments);
 ExitCode run_info(const Arguments& arguments);
+ExitCode run_mesh(const Arguments& arguments);
 ExitCode run_validate(const Arguments& arguments);
 
 // The code for an error met while reading or working on an input, and while writing an output.

@@ -14,6 +14,7 @@ constexpr Command kCommands[] = {
     {"render", "ASSET", "draw an asset as its shader does, or its height from straight above", run_render},
     {"check", "ASSET", "measure how far an asset lies from the map it was made from", run_check},
     {"info", "FILE", "say what is inside an asset or a height map", run_info},
+    {"mesh", "ASSET", "write the surface as triangles: the body with its relief, or one tile as a solid", run_mesh},
     {"validate", "ASSET", "list what is wrong with an asset, by numbered findings", run_validate},
 };
 

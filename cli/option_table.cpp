@@ -45,11 +45,12 @@ std::vector<OptionSpec> make_table() {
         {"--output,-o", "render", text, "PICTURE", "", "", 0, 0, "", true,
          "the picture to write: .png; with --top also .exr or .tif"},
         {"--output,-o", "vectorize", text, "PATHS.svg", "", "", 0, 0, "", true, "the drawing to write"},
+        {"--output,-o", "mesh", text, "MESH.glb", "", "", 0, 0, "", true, "the triangles to write"},
         {"--against", "check", text, "MAP", "", "", 0, 0, "", true, "the height map the asset was made from"},
 
         {"--model", "convert", text, "FILE", "", "", 0, 0, "", false,
          "put the pattern on this glTF, glb or obj; without it, on a rectangle"},
-        {"--material", "convert check", text, "NAME", "", "", 0, 0, "", false,
+        {"--material", "convert check mesh", text, "NAME", "", "", 0, 0, "", false,
          "which material, where the file has several"},
         {"--size", "convert vectorize", extent, "W[xH]", "m", "1", 1e-6, 1e6, "", false,
          "extent of the map along u and v; H follows from the map when left out"},
@@ -85,6 +86,16 @@ std::vector<OptionSpec> make_table() {
          "end with 1 when the RMS height error is above this"},
         {"--with", "check", choice, "WHICH", "", "truth", 0, 0, "truth|shader", false,
          "who reconstructs the heights: the evaluator of the library, or the shader"},
+
+        {"--tolerance", "mesh", number, "METRES", "m", "0", 0, 1e5, "", false,
+         "how far bent paths may lie from the straight pieces that stand for them; 0 is a thousandth of a feature's width"},
+        {"--tile", "mesh", flag, "", "", "", 0, 0, "", false,
+         "one tile of the pattern, flat and with sides and a bottom, in place of the asset's body"},
+        {"--base", "mesh", number, "METRES", "m", "0", 0, 1e5, "", false,
+         "with --tile: how far the bottom lies below the deepest point; 0 is half of the depth"},
+        {"--open", "mesh", flag, "", "", "", 0, 0, "", false, "with --tile: the surface alone, without sides and bottom"},
+        {"--threads", "mesh", integer, "COUNT", "", "0", 0, 256, "", false,
+         "threads to work with, 0 for all cores; the result does not depend on it"},
 
         {"--size", "render", pixels, "W[xH]", "px", plain(render.width), 1, 8192, "", false,
          "size of the picture; H follows when left out"},
@@ -135,9 +146,9 @@ std::vector<OptionSpec> make_table() {
         {"--threads", "render", integer, "COUNT", "", "0", 0, 256, "", false,
          "threads of --backend reference, 0 for all cores; the picture does not depend on it"},
 
-        {"--format", "convert vectorize render check info validate", choice, "WHICH", "", "text", 0, 0, "text|json", false,
+        {"--format", "convert vectorize render check info validate mesh", choice, "WHICH", "", "text", 0, 0, "text|json", false,
          "how results are printed"},
-        {"--quiet,-q", "convert vectorize render check info validate", flag, "", "", "", 0, 0, "", false,
+        {"--quiet,-q", "convert vectorize render check info validate mesh", flag, "", "", "", 0, 0, "", false,
          "no progress and no text; errors and json stay"},
     };
 }

@@ -55,7 +55,8 @@ void add_facet(SlabbedProfile& out, const ResolvedProfile& profile, std::uint32_
 }
 
 struct Crossing {
-    double at[2];  // heights on the two lines of the slab
+    double at[2];         // heights on the two lines of the slab
+    std::uint32_t facet;  // of the profile
     double middle() const { return 0.5 * (at[0] + at[1]); }
 };
 
@@ -67,7 +68,7 @@ std::vector<Crossing> crossings(const SlabbedProfile& out, const ResolvedProfile
     for (std::uint32_t i = first; i < last; ++i) {
         const ProfilePoint p = profile.points[i], q = profile.points[i + 1];
         if ((p.b <= middle) == (q.b <= middle)) continue;
-        found.push_back({{height_on(p, q, b0), height_on(p, q, b1)}});
+        found.push_back({{height_on(p, q, b0), height_on(p, q, b1)}, i});
     }
     std::sort(found.begin(), found.end(), [](const Crossing& x, const Crossing& y) { return x.middle() < y.middle(); });
     return found;
@@ -83,6 +84,8 @@ Slab slab_between(std::uint32_t line, bool cut, const Crossing* bottom, const Cr
         if (bottom) slab.bottom[k] = bottom->at[k];
         if (top) slab.top[k] = top->at[k];
     }
+    if (bottom) slab.bottom_facet = bottom->facet;
+    if (top) slab.top_facet = top->facet;
     return slab;
 }
 

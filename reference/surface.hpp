@@ -26,6 +26,7 @@ struct Slab {
     bool cut = false;
     bool has_bottom = false, has_top = false;
     double bottom[2] = {0, 0}, top[2] = {0, 0};
+    std::uint32_t bottom_facet = 0, top_facet = 0;  // of the profile, where there is one
 };
 
 struct SlabbedProfile {

@@ -53,7 +53,23 @@ class Sweeper {
     Sweeper(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out)
         : surface_(surface), gathered_(gathered), options_(options), out_(out), stations_(out.stations) {}
 
+    // Brushes, faces and walls.
     void sweep(std::uint32_t index) {
+        place(index);
+        for (std::size_t k = 0; k + 1 < stations_.list.size(); ++k) sweep_between(stations_.list[k], stations_.list[k + 1]);
+        for (int end = 0; end < 2; ++end) wall_ends(end);
+    }
+
+    // Brushes alone.
+    void sweep_slabs(std::uint32_t index) {
+        place(index);
+        for (std::size_t k = 0; k + 1 < stations_.list.size(); ++k)
+            if (place_lines(stations_.list[k], stations_.list[k + 1]))
+                for (const Slab& slab : profile_->slabs) sweep_slab(stations_.list[k], stations_.list[k + 1], slab);
+    }
+
+  private:
+    void place(std::uint32_t index) {
         const Instance& instance = gathered_.instances[index];
         const PreparedElement& e = surface_.truth().prepared().elements[instance.element];
         instance_ = index;
@@ -63,11 +79,8 @@ class Sweeper {
         for (const ProfileFacet& facet : profile_->facets)
             options.deep = std::max({options.deep, std::abs(facet.h0), std::abs(facet.h1)});
         place_stations(e, surface_.pattern().elements[instance.element], instance.shift, options, stations_);
-        for (std::size_t k = 0; k + 1 < stations_.list.size(); ++k) sweep_between(stations_.list[k], stations_.list[k + 1]);
-        for (int end = 0; end < 2; ++end) wall_ends(end);
     }
 
-  private:
     double height(const Station& station, double h) const { return element_->level + station.height * h; }
     double ground(std::uint32_t line) const { return profile_->lines[line] < 0.0 ? element_->left_level : element_->right_level; }
     // Of what lies between two lines.
@@ -75,7 +88,8 @@ class Sweeper {
         return profile_->lines[from] + profile_->lines[to] < 0.0 ? element_->left_level : element_->right_level;
     }
 
-    void sweep_between(const Station& a, const Station& b) {
+    // False: nothing between the two lies near.
+    bool place_lines(const Station& a, const Station& b) {
         assert(profile_->lines.size() <= kMostLines);
         Box box;
         for (std::size_t i = 0; i < profile_->lines.size(); ++i) {
@@ -84,7 +98,11 @@ class Sweeper {
             include(box, at_a_[i]);
             include(box, at_b_[i]);
         }
-        if (!gathered_.region.meets(box)) return;
+        return gathered_.region.meets(box);
+    }
+
+    void sweep_between(const Station& a, const Station& b) {
+        if (!place_lines(a, b)) return;
         for (const Slab& slab : profile_->slabs) sweep_slab(a, b, slab);
         for (const ProfileFacet& facet : profile_->facets) sweep_facet(a, b, facet);
         wall_sides(a, b);
@@ -149,15 +167,16 @@ class Sweeper {
         for_each_part(q, [&](int count, const Vec2* p, const Plane& plane) {
             Brush brush = brush_over(count, p, slab.cut);
             brush.has_bottom = slab.has_bottom, brush.has_top = slab.has_top;
+            brush.bottom_facet = slab.bottom_facet, brush.top_facet = slab.top_facet;
+            brush.level = level;
             (slab.has_bottom ? brush.bottom : brush.top) = plane;
             if (slab.has_bottom && slab.has_top) brush.top = plane_of(other);
-            put_brush(brush, level);
+            put_brush(brush);
         });
     }
 
-    void put_brush(const Brush& brush, double level) {
-        if (!gathered_.region.meets(brush.box)) return;
-        limit_to_zones(out_, brush, level);
+    void put_brush(const Brush& brush) {
+        if (gathered_.region.meets(brush.box)) limit_to_zones(out_, brush);
     }
 
     Face face_of(FaceKind kind, std::uint32_t facet, double level) const {
@@ -299,7 +318,9 @@ class Sweeper {
 
 }  // namespace
 
-void sweep_grooves(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
+namespace {
+
+void clear(const GroovedSurface& surface, const Gathered& gathered, LocalGeometry& out) {
     out.points.clear();
     out.plan.clear();
     out.zones.clear();
@@ -309,6 +330,18 @@ void sweep_grooves(const GroovedSurface& surface, const Gathered& gathered, cons
     const Vec2 extent = gathered.region.box.high - gathered.region.box.low;
     out.fine = 1e-9 * std::max({extent.x, extent.y, surface.pattern().depth});
     out.points.thin = out.plan.thin = 0.25 * out.fine;
+}
+
+}  // namespace
+
+void sweep_brushes(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
+    clear(surface, gathered, out);
+    Sweeper sweeper(surface, gathered, options, out);
+    for (std::uint32_t i = 0; i < gathered.instances.size(); ++i) sweeper.sweep_slabs(i);
+}
+
+void sweep_grooves(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out) {
+    clear(surface, gathered, out);
     divide_zones(surface, gathered, options, out);
     Sweeper sweeper(surface, gathered, options, out);
     for (std::uint32_t i = 0; i < gathered.instances.size(); ++i) sweeper.sweep(i);

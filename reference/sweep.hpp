@@ -26,6 +26,8 @@ struct Brush {
     bool cut = false;
     bool has_bottom = false, has_top = false;
     Plane bottom, top;
+    std::uint32_t bottom_facet = 0, top_facet = 0;  // of the profile
+    double level = 0.0;                             // of the ground that it acts over
     Polygon polygon;  // in LocalGeometry::plan
     Box box;          // in plan
 };
@@ -71,6 +73,10 @@ struct LocalGeometry {
 struct SweepOptions {
     double tolerance = 0.0;  // how far flat pieces may lie from the surface, metres, > 0
 };
+
+// Only the brushes, each over the whole of its piece of an element: what of it lies over ground of its level is the caller's to see.
+// Leaves out.zones and out.faces empty.
+void sweep_brushes(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out);
 
 // Fills `out`, whose memory is used again. Faces and brushes reach no farther than the domain, but for those of elements.
 void sweep_grooves(const GroovedSurface& surface, const Gathered& gathered, const SweepOptions& options, LocalGeometry& out);

@@ -193,13 +193,13 @@ bool acts_in(const LocalGeometry& out, const Zone& zone, double level) {
     return !zone.outside && std::abs(zone.level - level) <= 16.0 * out.fine;
 }
 
-void limit_to_zones(LocalGeometry& out, const Brush& brush, double level) {
+void limit_to_zones(LocalGeometry& out, const Brush& brush) {
     const bool whole = std::all_of(out.zones.begin(), out.zones.end(), [&](const Zone& zone) {
-        return acts_in(out, zone, level) || !meet(zone.box, brush.box) || !overlap(out, brush.polygon, zone);
+        return acts_in(out, zone, brush.level) || !meet(zone.box, brush.box) || !overlap(out, brush.polygon, zone);
     });
     if (whole) return out.brushes.push_back(brush);
     for (const Zone& zone : out.zones) {
-        if (!acts_in(out, zone, level) || !meet(zone.box, brush.box)) continue;
+        if (!acts_in(out, zone, brush.level) || !meet(zone.box, brush.box)) continue;
         Brush part = brush;
         part.polygon = overlap(out, brush.polygon, zone);
         if (!part.polygon) continue;

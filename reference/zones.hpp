@@ -19,7 +19,7 @@ struct Stretch {
 Stretch stretch_inside(const LocalGeometry& out, const Zone& zone, Vec2 a, Vec2 b);
 
 // Adds the brush or face, or what of it lies over ground of its level. Faces end up with the walls that they need there.
-void limit_to_zones(LocalGeometry& out, const Brush& brush, double level);
+void limit_to_zones(LocalGeometry& out, const Brush& brush);
 void limit_to_zones(LocalGeometry& out, const Face& face);
 
 // Makes the face an upright wall between the edge from a to b and the height `to`, and looks to `toward`.

@@ -435,6 +435,13 @@ Status add_fallback(GlbWriter& writer, Json& material, const Fallback& fallback,
 
 }  // namespace
 
+Result<std::vector<std::uint8_t>> write_model(const Model& model) {
+    GlbWriter writer(model.data());
+    writer.merge_buffers();
+    writer.embed_images();
+    return writer.finish();
+}
+
 Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedTextures& textures,
                                             const PathDetail& detail, const Fallback& fallback,
                                             const AttachOptions& options, const Residual& residual) {

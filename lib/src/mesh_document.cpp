@@ -66,15 +66,16 @@ class Builder {
     std::vector<std::uint8_t>& bytes_;
 };
 
-// Index of the material of that name, made when it is new: plain white, not metallic.
-std::size_t material_index(Json& document, const std::string& name) {
+// Index of the material of that name, made when it is new.
+std::size_t material_index(Json& document, const MeshPart& part) {
     Json& materials = document["materials"];
     for (std::size_t i = 0; i < materials.size(); ++i)
-        if (materials[i]["name"] == name) return i;
-    Json material = {{"name", name}};
-    material["pbrMetallicRoughness"]["baseColorFactor"] = Json::array({0.8, 0.8, 0.8, 1.0});
-    material["pbrMetallicRoughness"]["metallicFactor"] = 0.0;
-    material["pbrMetallicRoughness"]["roughnessFactor"] = 0.5;
+        if (materials[i]["name"] == part.material) return i;
+    Json material = {{"name", part.material}};
+    Json& look = material["pbrMetallicRoughness"];
+    look["baseColorFactor"] = part.base_color;
+    look["metallicFactor"] = part.metallic;
+    look["roughnessFactor"] = part.roughness;
     materials.push_back(material);
     return materials.size() - 1;
 }
@@ -105,7 +106,7 @@ ModelData make_document(const std::string& name, const std::vector<MeshPart>& pa
         document["meshes"][0]["primitives"].push_back(
             {{"attributes", attributes},
              {"indices", indices},
-             {"material", material_index(document, part.material)}});
+             {"material", material_index(document, part)}});
     }
     document["buffers"][0]["byteLength"] = model.buffers[0].size();
     // Numbers made here are signed; what is read from a file is unsigned, and the checks rely on it.

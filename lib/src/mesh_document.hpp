@@ -4,17 +4,15 @@
 #include <string>
 #include <vector>
 
+#include <burin/model.hpp>
+
 #include "gltf_document.hpp"
 
 namespace burin {
 
-struct MeshPart {
-    std::string material;          // name; parts of one name share the material
-    std::vector<float> positions;  // 3 per vertex
-    std::vector<float> normals;    // 3 per vertex
-    std::vector<float> tangents;   // 4 per vertex, or empty
-    std::vector<float> uvs;        // 2 per vertex, or empty
-    std::vector<std::uint32_t> indices;
+struct MeshPart : PlainMesh {
+    std::vector<float> tangents;  // 4 per vertex, or empty
+    std::vector<float> uvs;       // 2 per vertex, or empty
 };
 
 // One node, one mesh, one primitive per part, one buffer. Requires: parts not empty, each with at least one

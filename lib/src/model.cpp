@@ -66,4 +66,12 @@ Model make_plane(Vec2 size) {
     return Model(std::make_shared<const ModelData>(std::move(data)));
 }
 
+Model make_model(const std::string& name, std::vector<PlainMesh> meshes) {
+    std::vector<MeshPart> parts;
+    for (PlainMesh& mesh : meshes) parts.push_back({std::move(mesh), {}, {}});
+    ModelData data = make_document(name, parts);
+    assert(check_document(data).ok());
+    return Model(std::make_shared<const ModelData>(std::move(data)));
+}
+
 }  // namespace burin

@@ -110,6 +110,23 @@ Result<std::vector<std::uint8_t>> write_glb(const Model& model, const PackedText
                                             const PathDetail& detail, const Fallback& fallback,
                                             const AttachOptions& options = {}, const Residual& residual = {});
 
+// The document as it is, as binary glTF 2.0 that stands alone. Fails with limit_exceeded when the result passes 4 GiB. Equal input gives
+// equal bytes.
+Result<std::vector<std::uint8_t>> write_model(const Model& model);
+
+// Triangles with the look of one material; no texture.
+struct PlainMesh {
+    std::string material;  // name; meshes of one name share the material, which looks like the first
+    std::array<double, 4> base_color{0.8, 0.8, 0.8, 1.0};  // linear
+    double metallic = 0.0, roughness = 0.5;
+    std::vector<float> positions;  // three per vertex, metres
+    std::vector<float> normals;    // three per vertex, unit length
+    std::vector<std::uint32_t> indices;
+};
+
+// One node of that name with one primitive for each mesh. Requires: meshes not empty, each with at least one triangle.
+Model make_model(const std::string& name, std::vector<PlainMesh> meshes);
+
 // Triangles of one material, as the default scene shows them: node transforms applied, one entry for each
 // node and primitive. Points and lines are left out; strips and fans are unrolled.
 struct Primitive {
