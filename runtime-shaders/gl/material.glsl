@@ -22,15 +22,6 @@ vec2 look_start;  // of the pixel, metres
 vec2 look_x;
 vec2 look_y;
 
-// What a place is made of.
-struct Paint {
-    vec3 albedo;  // linear
-    float metal;
-    float rough;
-    vec3 glow;
-    float open;  // occlusion of the material's own
-};
-
 // Place and size of a texture's lookup, metres of the pattern.
 struct Look {
     vec2 place;

@@ -126,7 +126,7 @@ std::string fragment_text(const ProgramKind& kind) {
         text += part;
     if (stage == Stage::rays) return text + shader_text::rays_frag;
     if (stage == Stage::top) return text + shader_text::top_frag;
-    for (const char* part : {shader_text::pixel_filter, shader_text::curved, shader_text::frame, shader_text::material,
+    for (const char* part : {shader_text::pixel_filter, shader_text::curved, shader_text::frame, shader_text::lamp, shader_text::material,
                              kind.environment ? shader_text::environment : "", shader_text::shade})
         text += part;
     if (kind.pixel_filter != FILTER_RAYS)
@@ -139,9 +139,13 @@ Result<Program> Program::build(const Functions& gl, const ProgramKind& kind) {
     const std::string vertex_text =
         std::string(kVersion) +
         (kind.stage == Stage::rays || kind.stage == Stage::top ? shader_text::screen_vert : shader_text::surface_vert);
+    return build(gl, vertex_text, fragment_text(kind));
+}
+
+Result<Program> Program::build(const Functions& gl, const std::string& vertex_text, const std::string& fragment_text) {
     auto vertex = compile(gl, GL_VERTEX_SHADER, vertex_text);
     if (!vertex) return vertex.error();
-    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text(kind));
+    auto fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_text);
     if (!fragment) {
         gl.DeleteShader(*vertex);
         return fragment.error();

@@ -37,6 +37,8 @@ class Program {
   public:
     // Fails with unavailable, carrying the driver's log.
     static Result<Program> build(const Functions& gl, const ProgramKind& kind);
+    // The same of whole texts, version line included.
+    static Result<Program> build(const Functions& gl, const std::string& vertex_text, const std::string& fragment_text);
     Program(Program&& other) noexcept;
     Program& operator=(Program&&) = delete;
     ~Program();

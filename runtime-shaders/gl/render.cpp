@@ -12,116 +12,18 @@
 #include "gl/accumulator.hpp"
 #include "gl/camera.hpp"
 #include "gl/look_textures.hpp"
+#include "gl/mesh.hpp"
 #include "gl/pixel_filter.h"
+#include "gl/prepared_asset.hpp"
 #include "gl/program.hpp"
 #include "gl/sample_places.hpp"
 
 namespace burin {
 namespace {
 
-// World directions of one unit of u and one of v at every vertex, the mean over its triangles by their area
-// in uv; six numbers per vertex. On a round surface they turn smoothly where those of the triangles jump.
-std::vector<float> directions_of(const Primitive& primitive) {
-    const std::size_t vertices = primitive.positions.size() / 3;
-    std::vector<float> sums(vertices * 6, 0.0f), weights(vertices, 0.0f);
-    for (std::size_t first = 0; first + 2 < primitive.indices.size(); first += 3) {
-        const std::uint32_t* corner = &primitive.indices[first];
-        const glm::dvec3 p = vertex(primitive.positions, corner[0]);
-        const glm::dvec3 p1 = vertex(primitive.positions, corner[1]) - p,
-                         p2 = vertex(primitive.positions, corner[2]) - p;
-        const auto uv = [&](int k) {
-            return Vec2{double(primitive.uvs[2 * corner[k]]), double(primitive.uvs[2 * corner[k] + 1])};
-        };
-        const Vec2 a = uv(1) - uv(0), b = uv(2) - uv(0);
-        const double area = cross(a, b);
-        const double sign = area < 0.0 ? -1.0 : 1.0;
-        const glm::dvec3 u = (p1 * b.y - p2 * a.y) * sign, v = (p2 * a.x - p1 * b.x) * sign;
-        for (std::size_t k = 0; k < 3; ++k) {
-            weights[corner[k]] += float(std::abs(area));
-            for (int axis = 0; axis < 3; ++axis) {
-                sums[6 * corner[k] + std::size_t(axis)] += float(u[axis]);
-                sums[6 * corner[k] + 3 + std::size_t(axis)] += float(v[axis]);
-            }
-        }
-    }
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        sums[i] = weights[i / 6] > 0.0f ? sums[i] / weights[i / 6] : 0.0f;
-    return sums;
-}
-
-// First and second derivatives of the position, fifteen numbers per vertex.
-std::vector<float> frames_of(const Primitive& primitive) {
-    std::vector<float> values;
-    values.reserve(primitive.frames.size() * 15);
-    for (const SurfaceFrame& frame : primitive.frames)
-        for (const auto& v : {frame.du, frame.dv, frame.duu, frame.duv, frame.dvv}) values.insert(values.end(), v.begin(), v.end());
-    return values;
-}
-
-// One primitive as vertex arrays of its own.
-class Mesh {
-  public:
-    Mesh(const gl::Functions& gl, const Primitive& primitive)
-        : gl_(gl), count_(GLsizei(primitive.indices.size())) {
-        gl_.GenVertexArrays(1, &array_);
-        gl_.BindVertexArray(array_);
-        gl_.GenBuffers(kBuffers, buffers_);
-        attribute(0, 3, primitive.positions);
-        attribute(1, 3, primitive.normals);
-        attribute(2, 2, primitive.uvs);
-        // Without frames the second derivatives are those of OpenGL's disabled attributes: zero.
-        const bool framed = !primitive.frames.empty();
-        attributes(3, framed ? 5 : 2, framed ? frames_of(primitive) : directions_of(primitive));
-        if (!primitive.texture_uvs.empty()) attribute(8, 4, primitive.texture_uvs, 0, 5);
-        if (!primitive.charts.empty()) attribute(9, 1, primitive.charts, 0, 6);
-        gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[4]);
-        gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(primitive.indices.size() * 4),
-                       primitive.indices.data(), GL_STATIC_DRAW);
-    }
-    Mesh(const Mesh&) = delete;
-    Mesh& operator=(const Mesh&) = delete;
-    ~Mesh() {
-        gl_.DeleteBuffers(kBuffers, buffers_);
-        gl_.DeleteVertexArrays(1, &array_);
-    }
-    void draw() const {
-        gl_.BindVertexArray(array_);
-        gl_.DrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr);
-    }
-
-  private:
-    // `count` vectors of three per vertex, in attributes from `place` on.
-    void attributes(GLuint place, int count, const std::vector<float>& values) {
-        attribute(place, 3, values, 3 * count);
-        for (int i = 1; i < count; ++i) {
-            const auto offset = std::size_t(3 * i) * sizeof(float);
-            gl_.VertexAttribPointer(place + GLuint(i), 3, GL_FLOAT, GL_FALSE, GLsizei(3 * count * int(sizeof(float))),
-                                    reinterpret_cast<void*>(offset));
-            gl_.EnableVertexAttribArray(place + GLuint(i));
-        }
-    }
-    // `stride` floats from one vertex to the next; 0: packed.
-    void attribute(GLuint place, GLint components, const std::vector<float>& values, int stride = 0) {
-        attribute(place, components, values, stride, place);
-    }
-    void attribute(GLuint place, GLint components, const std::vector<float>& values, int stride, std::size_t buffer) {
-        gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[buffer]);
-        gl_.BufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * 4), values.data(), GL_STATIC_DRAW);
-        gl_.VertexAttribPointer(place, components, GL_FLOAT, GL_FALSE, GLsizei(stride * int(sizeof(float))),
-                                nullptr);
-        gl_.EnableVertexAttribArray(place);
-    }
-
-    static constexpr int kBuffers = 7;
-    const gl::Functions& gl_;
-    GLsizei count_;
-    GLuint array_ = 0;
-    GLuint buffers_[kBuffers] = {};  // attributes up to the derivatives, indices, other uvs, charts
-};
-
 // The asset in the context: meshes, textures and the program.
 struct Scene {
-    std::vector<std::unique_ptr<Mesh>> meshes;
+    std::vector<std::unique_ptr<gl::Mesh>> meshes;
     std::vector<std::unique_ptr<gl::DetailTextures>> details;  // one per material, null without detail
     std::unique_ptr<gl::DetailTextures> none;                  // stands in where a material has no detail
     std::vector<std::unique_ptr<gl::MaterialTextures>> looks;  // one per material
@@ -131,7 +33,7 @@ struct Scene {
 Scene load_scene(const gl::Functions& gl, const Asset& asset, const RenderOptions& options) {
     Scene scene;
     for (const Primitive& primitive : asset.primitives)
-        scene.meshes.push_back(std::make_unique<Mesh>(gl, primitive));
+        scene.meshes.push_back(std::make_unique<gl::Mesh>(gl, primitive));
     for (const MaterialInfo& material : asset.materials)
         scene.details.push_back(
             material.has_detail ? std::make_unique<gl::DetailTextures>(gl, material.textures, material.detail, material.residual, material.charts)
@@ -318,41 +220,64 @@ class Painter {
     std::array<std::optional<gl::Program>, 3> programs_;  // by FILTER_*
 };
 
-// A context whose target, cleared to `background`, is bound.
-struct Canvas {
-    std::unique_ptr<gl::Context> context;
-    std::unique_ptr<gl::FloatTarget> target;
-    const gl::Functions& gl() const { return context->functions(); }
-};
+// A target of the picture's size.
+Result<std::unique_ptr<gl::FloatTarget>> make_target(const gl::Functions& gl, const RenderOptions& options) {
+    return gl::FloatTarget::create(gl, options.width, options.height, 1, true);
+}
 
-Result<Canvas> open_canvas(const RenderOptions& options, const std::array<float, 3>& background) {
-    auto context = gl::open_context(options.backend);
-    if (!context) return context.error();
-    const gl::Functions& gl = (*context)->functions();
-    auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
-    if (!target) return target.error();
+// From now on passes go to the target, cleared to `background`.
+void begin_picture(const gl::Functions& gl, const gl::FloatTarget& target, const std::array<float, 3>& background) {
     gl.Enable(GL_DEPTH_TEST);
     gl.CullFace(GL_BACK);
     gl.ClearColor(to_linear(background[0]), to_linear(background[1]), to_linear(background[2]), 0.0f);
-    (*target)->bind();
-    return Canvas{std::move(*context), std::move(*target)};
+    target.bind();
 }
 
 }  // namespace
 
-Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options) {
+struct gl::PreparedAsset::State {
+    const Functions& gl;
+    RenderOptions options;
+    std::unique_ptr<FloatTarget> target;
+    Painter painter;
+
+    State(const Functions& functions, const Asset& asset, const RenderOptions& wanted, std::unique_ptr<FloatTarget> made)
+        : gl(functions), options(wanted), target(std::move(made)), painter(functions, asset, options, *target) {}
+};
+
+Result<gl::PreparedAsset> gl::PreparedAsset::load(const Context& context, const Asset& asset, const RenderOptions& options) {
     if (Status status = check_render(asset, options); !status) return status.error();
-    const auto canvas = open_canvas(options, options.background);
-    if (!canvas) return canvas.error();
-    Painter painter(canvas->gl(), asset, options, *canvas->target);
-    gl::Accumulator sums(options.width, options.height);
+    auto target = make_target(context.functions(), options);
+    if (!target) return target.error();
+    return PreparedAsset(std::make_unique<State>(context.functions(), asset, options, std::move(*target)));
+}
+
+gl::PreparedAsset::PreparedAsset(std::unique_ptr<State> state) : state_(std::move(state)) {}
+gl::PreparedAsset::PreparedAsset(PreparedAsset&& other) noexcept = default;
+gl::PreparedAsset::~PreparedAsset() = default;
+
+Result<gl::Accumulator> gl::PreparedAsset::draw() {
+    begin_picture(state_->gl, *state_->target, state_->options.background);
+    Painter& painter = state_->painter;
+    Accumulator sums(state_->options.width, state_->options.height);
     for (std::size_t k = 0; k < painter.places().size(); ++k) {
         if (k == 4) sums.keep_uneven();
         const auto drawn = painter.draw_sample(painter.places()[k], sums.wanted());
         if (!drawn) return drawn.error();
         sums.add(*drawn);
     }
-    return sums.image();
+    return sums;
+}
+
+Result<RgbaImage> render_asset(const Asset& asset, const RenderOptions& options) {
+    if (Status status = check_render(asset, options); !status) return status.error();
+    const auto context = gl::open_context(options.backend);
+    if (!context) return context.error();
+    auto prepared = gl::PreparedAsset::load(**context, asset, options);
+    if (!prepared) return prepared.error();
+    const auto sums = prepared->draw();
+    if (!sums) return sums.error();
+    return sums->image();
 }
 
 Result<FetchCounts> count_fetches(const Asset& asset, const RenderOptions& wanted) {
@@ -360,9 +285,13 @@ Result<FetchCounts> count_fetches(const Asset& asset, const RenderOptions& wante
     options.samples = 1;
     options.one_run = true;
     if (Status status = check_render(asset, options); !status) return status.error();
-    const auto canvas = open_canvas(options, {0, 0, 0});
-    if (!canvas) return canvas.error();
-    Painter painter(canvas->gl(), asset, options, *canvas->target, true);
+    const auto context = gl::open_context(options.backend);
+    if (!context) return context.error();
+    const gl::Functions& gl = (*context)->functions();
+    const auto target = make_target(gl, options);
+    if (!target) return target.error();
+    begin_picture(gl, **target, {0, 0, 0});
+    Painter painter(gl, asset, options, **target, true);
     const auto drawn = painter.draw_sample(painter.places()[0], std::vector<std::uint8_t>(std::size_t(options.width) * std::size_t(options.height), 255));
     if (!drawn) return drawn.error();
     FetchCounts counts;

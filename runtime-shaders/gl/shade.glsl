@@ -1,33 +1,13 @@
 // Metallic-roughness shading of what a ray has met: one directional light, and a soft surround or, with BURIN_ENVIRONMENT, an
-// environment. Stands behind gl/material.glsl and, with it, gl/environment.glsl.
-uniform vec3 light;         // towards the light, unit length
-uniform float light_strength;
-uniform float ambient;
+// environment. Stands behind gl/lamp.glsl, gl/material.glsl and, with it, gl/environment.glsl.
 
 // The pixel's own: set by main before anything is shaded.
-vec3 to_eye;
 mat3 to_pattern;     // world directions to pattern space
 vec2 rest_slopes;    // of the residual, at what is shaded
 vec2 uv_along_x;     // sides of what is filtered
 vec2 uv_along_y;
 bool light_above;    // the object surface faces the light; else nothing of it is lit
 bool along_look;     // what is shaded lies on the straight ray of look_origin and look_slope, at its own drop
-
-// Lambert and GGX with Smith's shadowing, for one light; colours linear.
-vec3 shade_lamp(vec3 n, Paint paint) {
-    vec3 halfway = normalize(to_eye + light);
-    float nl = max(dot(n, light), 0.0);
-    float nv = max(dot(n, to_eye), 1.0e-3);
-    float nh = max(dot(n, halfway), 0.0);
-    float a = max(paint.rough * paint.rough, 2.0e-3);
-    float a2 = a * a;
-    float d = a2 / (3.14159265 * pow(nh * nh * (a2 - 1.0) + 1.0, 2.0));
-    float visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1.0e-6);
-    vec3 f0 = mix(vec3(0.04), paint.albedo, paint.metal);
-    vec3 fresnel = f0 + (vec3(1.0) - f0) * pow(1.0 - max(dot(to_eye, halfway), 0.0), 5.0);
-    vec3 diffuse = paint.albedo * (1.0 - paint.metal) / 3.14159265;
-    return (diffuse * (vec3(1.0) - fresnel) + fresnel * (d * visible)) * (nl * light_strength);
-}
 
 #ifdef BURIN_ENVIRONMENT
 // A normal of pattern space in the world.
@@ -52,15 +32,6 @@ vec3 shade_around(vec3 n, vec3 bent, vec3 mirrored, BurinSky sky, Paint paint) {
     return once * reflected + (again + matt) * gathered;
 }
 #endif
-
-// The sky is brighter than the ground; a metal mirrors what a matt surface gathers.
-vec3 shade_surround(vec3 n, Paint paint) {
-    vec3 f0 = mix(vec3(0.04), paint.albedo, paint.metal);
-    vec3 fresnel = f0 + (vec3(1.0) - f0) * pow(1.0 - max(dot(to_eye, normalize(to_eye + light)), 0.0), 5.0);
-    float sky = 0.5 + 0.5 * n.y;
-    vec3 around = mix(paint.albedo * (1.0 - paint.metal), fresnel * mix(1.0, 0.75, paint.rough), mix(0.1, 1.0, paint.metal));
-    return around * ambient * paint.open * mix(0.35, 1.0, sky);
-}
 
 vec3 painted_color(BurinFacet facet, Paint paint) {
     if (along_look) {
