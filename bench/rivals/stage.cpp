@@ -1,0 +1,121 @@
+#include "stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+
+namespace burin::rivals {
+namespace {
+
+// Of all that the samples of a map depend on.
+std::string key_of(const bench::Subject& subject) {
+    std::uint64_t hash = 0xcbf29ce484222325ull;
+    const auto add = [&](const void* data, std::size_t bytes) {
+        for (std::size_t i = 0; i < bytes; ++i) hash = (hash ^ static_cast<const std::uint8_t*>(data)[i]) * 0x100000001b3ull;
+    };
+    const auto& data = subject.prepared.textures.data;
+    add(data.data(), 16 * std::size_t(subject.prepared.textures.sections.lists_begin()));
+    const ResolvedPattern& pattern = subject.prepared.resolved;
+    const double numbers[] = {1.0, pattern.depth, pattern.base_offset, pattern.outer_level, pattern.size.x, pattern.size.y};
+    add(numbers, sizeof numbers);
+    char name[32];
+    std::snprintf(name, sizeof name, "%016llx", static_cast<unsigned long long>(hash));
+    return name;
+}
+
+MapPaint paint_of(const scenes::Part& part) { return {part.color, part.metallic, part.roughness}; }
+
+// The rectangle that a view shows, in uv, a little wider; whole where the view meets the horizon.
+bench::Extent seen_extent(const bench::PlaneView& view, const bench::Extent& whole, Vec2 size) {
+    const bench::PlaneCamera camera = bench::camera_of(view, size);
+    bench::Extent seen{{1e9, 1e9}, {-1e9, -1e9}};
+    for (const double x : {-1.05, 1.05})
+        for (const double y : {-1.05, 1.05}) {
+            std::array<double, 3> way;
+            for (std::size_t i = 0; i < 3; ++i) way[i] = camera.forward[i] + camera.tangent * (x * camera.aspect * camera.right[i] + y * camera.up[i]);
+            if (way[1] >= -1e-6) return whole;
+            const double t = camera.eye[1] / -way[1];
+            const Vec2 uv{(camera.eye[0] + way[0] * t) / size.x + 0.5, (camera.eye[2] + way[2] * t) / size.y + 0.5};
+            seen.low = {std::min(seen.low.x, uv.x), std::min(seen.low.y, uv.y)};
+            seen.high = {std::max(seen.high.x, uv.x), std::max(seen.high.y, uv.y)};
+        }
+    return {{std::max(seen.low.x, whole.low.x), std::max(seen.low.y, whole.low.y)},
+            {std::min(seen.high.x, whole.high.x), std::min(seen.high.y, whole.high.y)}};
+}
+
+}  // namespace
+
+SceneMaps::SceneMaps(const gl::Context& context, const bench::Subject& subject, int finest, const std::string& cache)
+    : context_(context), cache_(cache), key_(key_of(subject)),
+      maps_(map_surface(subject.prepared.resolved, paint_of(subject.part()), finest, cache, key_)) {}
+
+const RivalMaps& SceneMaps::maps_for(const RivalSettings& settings) {
+    const bool cones = settings.technique == Technique::cones;
+    auto& made = made_[{settings.size, settings.wide_heights, cones}];
+    if (!made) {
+        const RivalMaps::Wanted wanted{settings.size, settings.wide_heights, cones, cache_, key_};
+        made = std::make_unique<RivalMaps>(context_.functions(), maps_, wanted);
+    }
+    return *made;
+}
+
+double time_once(const Draw& draw) {
+    const std::clock_t before = std::clock();
+    draw();
+    return double(std::clock() - before) * 1000.0 / CLOCKS_PER_SEC;
+}
+
+Stage::Stage(const gl::Context& context, const bench::Subject& subject, SceneMaps& maps, const bench::PlaneView& view, const std::string& cache)
+    : context_(context), subject_(subject), maps_(maps), view_(view), truth_(bench::draw_truth(subject, view, cache)),
+      asset_(bench::asset_of(subject, bench::extent_of(view, subject.prepared.resolved))),
+      options_(bench::options_of(view, subject.prepared.resolved.size)) {}
+
+bool Stage::shows_features() const { return std::count(truth_.feature.begin(), truth_.feature.end(), 1) > 0; }
+
+double Stage::pixel_in_uv() const { return view_.pixel / std::max(subject_.prepared.resolved.size.x, subject_.prepared.resolved.size.y); }
+
+Result<Rival*> Stage::rival_of(const RivalSettings& settings) {
+    const bool triangles = settings.technique == Technique::triangles;
+    auto& drawn = rivals_[{int(settings.technique), triangles ? settings.edge : 0.0}];
+    if (drawn) return &*drawn->rival;
+    auto made = std::make_unique<Drawn>(Drawn{asset_, {}});
+    if (triangles) {
+        const Vec2 size = subject_.prepared.resolved.size;
+        const auto seen = seen_extent(view_, bench::extent_of(view_, subject_.prepared.resolved), size);
+        made->asset = bench::asset_of(subject_, seen);
+        made->asset.primitives[0] = subdivide(made->asset.primitives[0], settings.edge);
+    }
+    auto rival = Rival::load(context_, made->asset, options_, settings.technique, maps_.surface().channels());
+    if (!rival) return rival.error();
+    made->rival.emplace(std::move(*rival));
+    drawn = std::move(made);
+    return &*drawn->rival;
+}
+
+Result<Draw> Stage::rival(const RivalSettings& settings) {
+    auto rival = rival_of(settings);
+    if (!rival) return rival.error();
+    const RivalMaps* maps = &maps_.maps_for(settings);
+    return Draw([drawn = *rival, maps, settings] { return drawn->draw(settings, {maps}); });
+}
+
+Result<Draw> Stage::burin(const std::function<void(RenderOptions&)>& apply) {
+    RenderOptions options = options_;
+    apply(options);
+    auto prepared = gl::PreparedAsset::load(context_, asset_, options);
+    if (!prepared) return prepared.error();
+    auto kept = std::make_shared<gl::PreparedAsset>(std::move(*prepared));
+    if (auto first = kept->draw(); !first) return first.error();
+    return Draw([kept] { return *kept->draw(); });
+}
+
+Trial Stage::measure(const Draw& draw, int runs) const {
+    const bench::ImageError error = bench::compare_pictures(draw().image(), truth_);
+    std::vector<double> times;
+    for (int k = 0; k < runs; ++k) times.push_back(time_once(draw));
+    std::sort(times.begin(), times.end());
+    return {error.psnr, times.empty() ? 0.0 : times[times.size() / 2]};
+}
+
+}  // namespace burin::rivals
