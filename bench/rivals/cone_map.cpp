@@ -15,14 +15,20 @@ struct Field {
     bool repeat = true;
     double along = 0.0, across = 0.0;  // metres per texel, of columns and of rows
     double reach = 0.0;                // metres over the plane that the widest cone extends
+    float outer = 0.0f;                // height around a map that ends
     std::vector<float> heights, ratios;
+
+    float height_at(int row, int column) const {
+        const int wrapped = row & (size - 1);
+        return repeat || wrapped == row ? heights[std::size_t(wrapped) * std::size_t(size) + std::size_t(column)] : outer;
+    }
 };
 
 Field field_of(const SurfaceMaps& maps, const MapLevel& level) {
     const std::size_t count = level.heights.size();
     const double range = maps.lowest - maps.highest, scale = range / 65535.0;
     Field field{level.size, maps.repeat, maps.metres.x / level.size, maps.metres.y / level.size, kWidestCone * range,
-                std::vector<float>(count), std::vector<float>(count, float(kWidestCone))};
+                float(maps.lowest - maps.outer), std::vector<float>(count), std::vector<float>(count, float(kWidestCone))};
     for (std::size_t i = 0; i < count; ++i) field.heights[i] = float(level.heights[i] * scale);
     return field;
 }
@@ -86,23 +92,21 @@ void narrow_line(Field& field, const Line& line, double steepest, Hull& hull) {
     const double step = std::hypot(field.along, line.lean * field.across);
     const float fall = float(step / steepest), slack = float(0.5 * std::hypot(field.along, field.across));
     const int ahead = field.repeat ? int(std::ceil(std::min(double(n), field.reach / step))) : 0;
-    const auto texel = [&](int k) {
-        const int column = line.backwards ? n - 1 - k : k;
-        int x = column, y = line.row + int(std::lround(k * line.lean));
-        if (field.repeat) {
-            x = ((x % n) + n) % n;
-            y = ((y % n) + n) % n;
-        }
-        return y < 0 || y >= n ? std::ptrdiff_t(-1) : std::ptrdiff_t(y) * n + x;
-    };
+    const std::int64_t lean = std::llround(line.lean * 0x1p32);
+    const int mask = n - 1;  // n is a power of two
     hull.clear();
-    float beyond = 1e9f;  // height of the place after the one at hand
+    float beyond = field.repeat ? 1e9f : field.outer;  // height of the place after the one at hand
     for (int k = n - 1 + ahead; k >= 0; --k) {
-        const std::ptrdiff_t at = texel(k);
-        if (at < 0) continue;
-        const Place place{float(k * step), field.heights[std::size_t(at)]};
-        if (k < n) {
-            float& ratio = field.ratios[std::size_t(at)];
+        const int column = (line.backwards ? n - 1 - k : k) & mask;
+        const std::int64_t leaned = k * lean;
+        const int row = line.row + int(leaned >> 32);
+        // Between two rows, else a slope along its own contour would look like a saw.
+        const float part = float(std::uint32_t(leaned)) * 0x1p-32f;
+        const float low = field.height_at(row, column), high = field.height_at(row + 1, column);
+        const Place place{float(k * step), low + (high - low) * part};
+        const int nearest = row + (part >= 0.5f ? 1 : 0);
+        if (k < n && (field.repeat || (nearest >= 0 && nearest < n))) {
+            float& ratio = field.ratios[std::size_t(nearest & mask) * std::size_t(n) + std::size_t(column)];
             ratio = std::min(ratio, hull.least_ratio(place, slack));
         }
         if (place.height - beyond > fall) hull.add(place);
@@ -127,10 +131,11 @@ void narrow_along(Field& field, double lean, double steepest) {
 
 std::vector<std::uint8_t> make_relaxed_cones(const SurfaceMaps& maps, const MapLevel& level, const ConeOptions& options) {
     Field field = field_of(maps, level);
+    const int directions = options.directions / 4;
     for (int turn = 0; turn < 2; ++turn) {
-        for (int i = 0; i < options.directions / 4; ++i) {
+        for (int i = 0; i < directions; ++i) {
             // Directions from -45 to 45 degrees; backwards they are the opposite ones.
-            const double angle = (double(i) + 0.5) / (options.directions / 4) * std::numbers::pi / 2.0 - std::numbers::pi / 4.0;
+            const double angle = (double(i) + 0.5) / directions * std::numbers::pi / 2.0 - std::numbers::pi / 4.0;
             narrow_along(field, std::tan(angle), options.steepest);
         }
         transpose(field);

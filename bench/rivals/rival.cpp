@@ -38,6 +38,67 @@ std::vector<Vec2> places_of(const RivalSettings& settings) {
     return places;
 }
 
+// Four samples of coverage per pixel, which become one when they are read.
+class CoverageTarget {
+  public:
+    CoverageTarget(const gl::Functions& gl, int width, int height) : gl_(gl), width_(width), height_(height) {
+        gl_.GenFramebuffers(1, &framebuffer_);
+        gl_.GenRenderbuffers(2, buffers_);
+        bind();
+        constexpr GLenum kFormats[] = {GL_RGBA32F, GL_DEPTH_COMPONENT32F}, kPlaces[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+        for (int i = 0; i < 2; ++i) {
+            gl_.BindRenderbuffer(GL_RENDERBUFFER, buffers_[i]);
+            gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, 4, kFormats[i], width, height);
+            gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, kPlaces[i], GL_RENDERBUFFER, buffers_[i]);
+        }
+    }
+    CoverageTarget(const CoverageTarget&) = delete;
+    CoverageTarget& operator=(const CoverageTarget&) = delete;
+    ~CoverageTarget() {
+        gl_.DeleteRenderbuffers(2, buffers_);
+        gl_.DeleteFramebuffers(1, &framebuffer_);
+    }
+    bool complete() const { return gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE; }
+    void bind() const {
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+        gl_.Viewport(0, 0, width_, height_);
+    }
+    void resolve_into(const gl::FloatTarget& target) const {
+        target.bind();
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+        gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+
+  private:
+    const gl::Functions& gl_;
+    int width_, height_;
+    GLuint framebuffer_ = 0, buffers_[2] = {0, 0};
+};
+
+// What a picture is drawn into: plain floats, with outlines smoothed if asked.
+class Target {
+  public:
+    static Result<std::unique_ptr<Target>> create(const gl::Functions& gl, int width, int height, bool outlines) {
+        auto plain = gl::FloatTarget::create(gl, width, height, 1, true);
+        if (!plain) return plain.error();
+        auto target = std::make_unique<Target>();
+        target->plain_ = std::move(*plain);
+        if (!outlines) return target;
+        target->coverage_ = std::make_unique<CoverageTarget>(gl, width, height);
+        if (!target->coverage_->complete()) return Error{ErrorCode::unavailable, "the driver has no float target of four samples"};
+        return target;
+    }
+    void bind() const { coverage_ ? coverage_->bind() : plain_->bind(); }
+    std::vector<float> read() const {
+        if (coverage_) coverage_->resolve_into(*plain_);
+        return plain_->read(0);
+    }
+
+  private:
+    std::unique_ptr<gl::FloatTarget> plain_;
+    std::unique_ptr<CoverageTarget> coverage_;
+};
+
 }  // namespace
 
 const char* name_of(Technique technique) {
@@ -51,7 +112,7 @@ struct Rival::State {
     RenderOptions options;
     Technique technique;
     gl::Program program;
-    std::unique_ptr<gl::FloatTarget> target;
+    std::unique_ptr<Target> target;
     View view;
     std::vector<std::unique_ptr<gl::Mesh>> meshes;
 
@@ -61,7 +122,6 @@ struct Rival::State {
         gl.CullFace(GL_BACK);
         const auto& background = options.background;
         gl.ClearColor(to_linear(background[0]), to_linear(background[1]), to_linear(background[2]), 0.0f);
-        target->bind();
         program.use();
         const glm::dvec3 to_light = direction_of(options.light.azimuth, options.light.elevation);
         program.set("eye", float(view.eye.x), float(view.eye.y), float(view.eye.z));
@@ -75,7 +135,7 @@ struct Rival::State {
         program.set("refinements", settings.refinements);
         program.set("sample_side", float(1.0 / std::sqrt(double(settings.samples))));
         program.set("bias", settings.bias);
-        program.set("shadow_slack", settings.shadow_slack);
+        program.set("shadow_slack", settings.shadow_slack + (settings.wide_heights ? 0.0f : 2.0f / 255.0f));
         program.set("anisotropy", settings.anisotropy);
         program.set("grid_level", float(std::max(0.0, std::log2(settings.edge * settings.size))));
     }
@@ -87,23 +147,24 @@ struct Rival::State {
             program.set(("places[" + std::to_string(k) + "]").c_str(), float(places[k].x), float(places[k].y));
         const glm::mat4 matrix(projection(view, options, shift.x, shift.y));
         gl.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix));
+        target->bind();
         gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         for (std::size_t i = 0; i < meshes.size(); ++i) {
             maps[std::size_t(asset.primitives[i].material)]->bind(program);
             meshes[i]->draw();
         }
         gl.Finish();
-        return target->read(0);
+        return target->read();
     }
 };
 
 Result<Rival> Rival::load(const gl::Context& context, const Asset& asset, const RenderOptions& options, Technique technique,
-                          std::size_t channels) {
+                          std::size_t channels, bool outlines) {
     if (Status status = check_render(asset, options); !status) return status.error();
     const gl::Functions& gl = context.functions();
     auto program = build_program(gl, technique, channels);
     if (!program) return program.error();
-    auto target = gl::FloatTarget::create(gl, options.width, options.height, 1, true);
+    auto target = Target::create(gl, options.width, options.height, outlines && technique != Technique::triangles);
     if (!target) return target.error();
     auto state = std::make_unique<State>(
         State{gl, asset, options, technique, std::move(*program), std::move(*target), place_camera(asset, options), {}});

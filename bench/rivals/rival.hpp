@@ -31,7 +31,7 @@ struct RivalSettings {
     float anisotropy = 4.0f;  // how much longer than wide the footprint is that a lookup filters with the detail of its width
     bool wide_heights = false;  // 16 bits instead of 8
     double edge = 1e-3;     // triangles: uv between vertices
-    float shadow_slack = 0.004f;  // of the map's range: what rises so little throws no shadow
+    float shadow_slack = 0.003f;  // of the map's range, beyond the step of its heights: what rises so little throws no shadow
     bool passes = false;    // every sample a pass of its own, instead of a loop in the shader; triangles always are
 };
 
@@ -73,10 +73,11 @@ Primitive subdivide(const Primitive& primitive, double edge);
 // One technique's program, with an asset's meshes.
 class Rival {
   public:
-    // The context and the asset must outlive it; `channels`: the most that maps will have. For triangles the primitives are subdivided
+    // The context and the asset must outlive it; `channels`: the most that maps will have. `outlines`: the mesh's own are
+    // seen, and smoothed by four samples of coverage. For triangles the primitives are subdivided
     // already. Fails as render_asset does.
     static Result<Rival> load(const gl::Context& context, const Asset& asset, const RenderOptions& options, Technique technique,
-                              std::size_t channels);
+                              std::size_t channels, bool outlines);
     Rival(Rival&& other) noexcept;
     Rival& operator=(Rival&&) = delete;
     ~Rival();

@@ -26,7 +26,8 @@ std::vector<std::vector<std::uint8_t>> cones_of(const SurfaceMaps& maps, const R
     }
     std::vector<std::uint8_t> all;
     for (std::size_t i = first; i < maps.levels.size(); ++i) {
-        cones.push_back(make_relaxed_cones(maps, maps.levels[i]));
+        // Of so fine a map neighbouring texels take turns at what lies between directions.
+        cones.push_back(make_relaxed_cones(maps, maps.levels[i], {.directions = maps.levels[i].size > 1024 ? 16 : 32}));
         all.insert(all.end(), cones.back().begin(), cones.back().end());
     }
     if (!wanted.cache.empty())
@@ -66,10 +67,11 @@ void upload(const gl::Functions& gl, int level, int size, const Format& format, 
     gl.TexImage2D(GL_TEXTURE_2D, level, format.inner, size, size, 0, format.layout, format.type, texels);
 }
 
-void filter(const gl::Functions& gl, bool repeat, GLint between) {
+void filter(const gl::Functions& gl, bool repeat, GLint between, const GLfloat (&around)[4]) {
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, between);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) gl.TexParameteri(GL_TEXTURE_2D, side, repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) gl.TexParameteri(GL_TEXTURE_2D, side, repeat ? GL_REPEAT : GL_CLAMP_TO_BORDER);
+    gl.TexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, around);
 }
 
 std::vector<std::int8_t> normal_texels(const MapLevel& level) {
@@ -113,7 +115,10 @@ RivalMaps::RivalMaps(const gl::Functions& gl, const SurfaceMaps& maps, const Wan
             else
                 upload(gl, at, level.size, format_of(maps.channels(), false), level.shares.data());
         }
-        filter(gl, maps.repeat, which == 0 ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+        // Around a map that ends lies level ground, which needs no cone.
+        const double range = maps.lowest - maps.highest;
+        const GLfloat outer = which == 0 && range > 0.0 ? GLfloat((maps.lowest - maps.outer) / range) : 0.0f;
+        filter(gl, maps.repeat, which == 0 ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR, {outer, which == 0 ? 1.0f : 0.0f, 0.0f, 0.0f});
     }
 }
 

@@ -73,6 +73,12 @@ Stage::Stage(const gl::Context& context, const bench::Subject& subject, SceneMap
 
 bool Stage::shows_features() const { return std::count(truth_.feature.begin(), truth_.feature.end(), 1) > 0; }
 
+bool Stage::shows_outline() const {
+    const ResolvedPattern& pattern = subject_.prepared.resolved;
+    const bench::Extent whole = bench::extent_of(view_, pattern), seen = seen_extent(view_, whole, pattern.size);
+    return seen.low.x <= whole.low.x || seen.low.y <= whole.low.y || seen.high.x >= whole.high.x || seen.high.y >= whole.high.y;
+}
+
 double Stage::pixel_in_uv() const { return view_.pixel / std::max(subject_.prepared.resolved.size.x, subject_.prepared.resolved.size.y); }
 
 Result<Rival*> Stage::rival_of(const RivalSettings& settings) {
@@ -86,7 +92,7 @@ Result<Rival*> Stage::rival_of(const RivalSettings& settings) {
         made->asset = bench::asset_of(subject_, seen);
         made->asset.primitives[0] = subdivide(made->asset.primitives[0], settings.edge);
     }
-    auto rival = Rival::load(context_, made->asset, options_, settings.technique, maps_.surface().channels());
+    auto rival = Rival::load(context_, made->asset, options_, settings.technique, maps_.surface().channels(), shows_outline());
     if (!rival) return rival.error();
     made->rival.emplace(std::move(*rival));
     drawn = std::move(made);

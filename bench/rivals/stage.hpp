@@ -48,6 +48,7 @@ class Stage {
     const bench::PlaneView& view() const { return view_; }
     const bench::TruthPicture& truth() const { return truth_; }
     bool shows_features() const;
+    bool shows_outline() const;  // the plane ends within the picture
     MapBytes bytes_of(const RivalSettings& settings) const { return rivals::bytes_of(settings, maps_.surface()); }
     double pixel_in_uv() const;  // at the place looked at
 

@@ -14,6 +14,7 @@ namespace burin::rivals {
 namespace {
 
 constexpr int kBlock = 32;  // texels per side that share their candidates
+constexpr int kCell = 4;    // texels per side within which a facet is taken to be smooth
 
 // One sample of the truth per texel.
 struct Samples {
@@ -105,14 +106,72 @@ class Sampler {
     void fill_block(Samples& samples, int x, int y, int side, const std::vector<std::uint32_t>& near) const {
         const bool steps = std::any_of(near.begin(), near.end(), [&](std::uint32_t e) { return pattern_.styles[pattern_.elements[e].style].step; });
         const double ground = truth_.ground_at(at(x + 0.5 * side, y + 0.5 * side));
-        for (int v = y; v < y + side; ++v)
-            for (int u = x; u < x + side; ++u) {
-                const Vec2 p = at(u + 0.5, v + 0.5);
-                const std::size_t texel = std::size_t(v) * std::size_t(size_) + std::size_t(u);
-                if (near.empty()) samples.heights[texel] = float(ground);
-                else put(samples, texel, steps ? truth_.surface_at(p, near) : truth_.surface_at(p, near, ground));
+        if (near.empty()) return fill_level(samples, x, y, side, ground);
+        const auto sample = [&](int u, int v) {
+            const Vec2 p = at(u + 0.5, v + 0.5);
+            return steps ? truth_.surface_at(p, near) : truth_.surface_at(p, near, ground);
+        };
+        if (!fills_cells(near) || side < kCell) return fill_texels(samples, x, y, side, sample);
+        const int lines = side / kCell + 1;
+        std::vector<SurfacePoint> corners;
+        for (int j = 0; j < lines; ++j)
+            for (int i = 0; i < lines; ++i) corners.push_back(sample(x + i * kCell, y + j * kCell));
+        for (int j = 0; j + 1 < lines; ++j)
+            for (int i = 0; i + 1 < lines; ++i) {
+                const SurfacePoint* first = &corners[std::size_t(j * lines + i)];
+                const SurfacePoint* four[4] = {first, first + 1, first + lines, first + lines + 1};
+                if (is_smooth(four)) fill_smooth(samples, x + i * kCell, y + j * kCell, four);
+                else fill_texels(samples, x + i * kCell, y + j * kCell, kCell, sample);
             }
     }
+
+    // Whether each is so wide that no strip of it runs unseen between the corners of a cell.
+    bool fills_cells(const std::vector<std::uint32_t>& near) const {
+        const double least = 1.5 * kCell * std::max(texel_.x, texel_.y);
+        return std::all_of(near.begin(), near.end(), [&](std::uint32_t e) {
+            const ResolvedElement& element = pattern_.elements[e];
+            double low = 0.0, high = 0.0;
+            for (const ProfilePoint& point : pattern_.profiles[pattern_.styles[element.style].profile].points)
+                low = std::min(low, point.b), high = std::max(high, point.b);
+            return (high - low) * std::max(element.element.width0, element.element.width1) > least;
+        });
+    }
+
+    static bool is_smooth(const SurfacePoint* const (&four)[4]) {
+        return std::all_of(four + 1, four + 4, [&](const SurfacePoint* one) {
+            double turned = 0.0;
+            for (std::size_t k = 0; k < 3; ++k) turned += std::abs(one->normal[k] - four[0]->normal[k]);
+            return one->element == four[0]->element && one->facet == four[0]->facet && turned < 0.02;
+        });
+    }
+
+    void fill_smooth(Samples& samples, int x, int y, const SurfacePoint* const (&four)[4]) const {
+        for (int v = 0; v < kCell; ++v)
+            for (int u = 0; u < kCell; ++u) {
+                const double s = double(u) / kCell, t = double(v) / kCell;
+                const double weights[4] = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
+                SurfacePoint mean = *four[0];
+                mean.height = mean.normal[0] = mean.normal[1] = 0.0;
+                for (std::size_t k = 0; k < 4; ++k) {
+                    mean.height += weights[k] * four[k]->height;
+                    for (std::size_t axis = 0; axis < 2; ++axis) mean.normal[axis] += weights[k] * four[k]->normal[axis];
+                }
+                put(samples, texel(x + u, y + v), mean);
+            }
+    }
+
+    template <typename Sample>
+    void fill_texels(Samples& samples, int x, int y, int side, const Sample& sample) const {
+        for (int v = y; v < y + side; ++v)
+            for (int u = x; u < x + side; ++u) put(samples, texel(u, v), sample(u, v));
+    }
+
+    void fill_level(Samples& samples, int x, int y, int side, double height) const {
+        for (int v = y; v < y + side; ++v)
+            for (int u = x; u < x + side; ++u) samples.heights[texel(u, v)] = float(height);
+    }
+
+    std::size_t texel(int x, int y) const { return std::size_t(y) * std::size_t(size_) + std::size_t(x); }
 
     void put(Samples& samples, std::size_t texel, const SurfacePoint& point) const {
         samples.heights[texel] = float(point.height);
@@ -229,6 +288,9 @@ SurfaceMaps map_surface(const ResolvedPattern& pattern, const MapPaint& base, in
     const auto [low, high] = std::minmax_element(samples.heights.begin(), samples.heights.end());
     maps.highest = pattern.base_offset - double(*high);
     maps.lowest = pattern.base_offset - double(*low);
+    maps.outer = maps.repeat ? maps.highest : pattern.base_offset - pattern.outer_level;
+    maps.highest = std::min(maps.highest, maps.outer);
+    maps.lowest = std::max(maps.lowest, maps.outer);
     maps.levels.push_back(first_level(maps, samples, size, pattern.base_offset));
     while (maps.levels.back().size > 1) maps.levels.push_back(next_level(maps.levels.back(), maps.channels()));
     return maps;

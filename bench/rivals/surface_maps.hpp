@@ -31,6 +31,7 @@ struct SurfaceMaps {
     Vec2 metres;                 // of the tile
     bool repeat = true;
     double highest = 0.0, lowest = 0.0;  // metres below the object surface
+    double outer = 0.0;                  // the same of what lies around a map that ends, ground
     std::vector<MapPaint> paints;        // at least one, at most five
     std::vector<MapLevel> levels;        // the finest first, the last one texel
 

@@ -39,6 +39,7 @@ namespace burin::gl {
     F(TEXIMAGE2D, TexImage2D)                        \
     F(TEXIMAGE3D, TexImage3D)                        \
     F(TEXPARAMETERI, TexParameteri)                  \
+    F(TEXPARAMETERFV, TexParameterfv)                \
     F(GENERATEMIPMAP, GenerateMipmap)                \
     F(PIXELSTOREI, PixelStorei)                      \
     F(GENBUFFERS, GenBuffers)                        \
@@ -57,6 +58,8 @@ namespace burin::gl {
     F(DELETERENDERBUFFERS, DeleteRenderbuffers)      \
     F(BINDRENDERBUFFER, BindRenderbuffer)            \
     F(RENDERBUFFERSTORAGE, RenderbufferStorage)      \
+    F(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample) \
+    F(BLITFRAMEBUFFER, BlitFramebuffer)              \
     F(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer) \
     F(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) \
     F(DRAWBUFFERS, DrawBuffers)                      \
