@@ -137,6 +137,7 @@ struct Rival::State {
         program.set("bias", settings.bias);
         program.set("shadow_slack", settings.shadow_slack + (settings.wide_heights ? 0.0f : 2.0f / 255.0f));
         program.set("anisotropy", settings.anisotropy);
+        gl.Uniform4f(program.at("window"), float(settings.window[0]), float(settings.window[1]), float(settings.window[2]), float(settings.window[3]));
         program.set("grid_level", float(std::max(0.0, std::log2(settings.edge * settings.size))));
     }
 

@@ -4,6 +4,10 @@ in vec3 world_normal;
 in vec2 pattern_uv;
 in vec3 world_along_u;
 in vec3 world_along_v;
+#ifdef RIVAL_TRIANGLES
+in float drop;
+uniform vec4 window;  // uv of the object surface that is there: low, high
+#endif
 uniform highp sampler2D heights;  // r: 1 at the highest place of the map, 0 at the lowest; g: root of the cone's ratio over the widest one
 uniform sampler2D normals;        // x and y, signed
 uniform sampler2D shares;         // of materials 1 to 4
@@ -86,21 +90,24 @@ float search(vec2 start, vec2 way, int turns) {
 #endif
 
 #if TECHNIQUE == 3
-// Cone steps to within the solid or close to it, then halvings between the last two places.
-float search_cones(vec2 start, vec2 way, float slope, float range_end) {
+// Cone steps to within the solid, then halvings between the last two places. `inside`: it was met before `range_end`.
+float search_cones(vec2 start, vec2 way, float slope, float range_end, out bool inside) {
+    // At rims cones are as narrow as can be: a texel is always passed.
+    float least = min(exp2(even_level) / max(length(way * texels), 1.0e-3), 0.1);
     float at = 0.0;
     float last = 0.0;
+    inside = false;
     for (int k = 0; k < 256; ++k) {
         if (k >= steps) break;
         vec2 found = textureLod(heights, start + way * at, even_level).rg;
         float above = 1.0 - found.r - at;
-        if (above <= 0.0) break;
+        inside = above <= 0.0;
+        if (inside || at >= range_end) break;
         float ratio = found.g * found.g * widest;
-        float forward = ratio * above / (ratio + slope);
         last = at;
-        at += forward;
-        if (at >= range_end || forward < 2.0e-4) break;
+        at = min(at + max(ratio * above / (ratio + slope), least), range_end);
     }
+    if (!inside) return at;
     float low = last;
     float high = at;
     for (int k = 0; k < 12; ++k) {
@@ -118,7 +125,8 @@ float meet(vec2 start, vec2 way, vec2 slope) {
 #if TECHNIQUE == 1 || TECHNIQUE == 2
     return search(start, way, turns_for(slope));
 #elif TECHNIQUE == 3
-    return search_cones(start, way, length(slope), 1.0);
+    bool inside;
+    return search_cones(start, way, length(slope), 1.0, inside);
 #else
     return 0.0;
 #endif
@@ -134,8 +142,9 @@ float reached_by_light(vec2 uv, float deep) {
 #else
     if (deep <= shadow_slack) return 1.0;
 #if TECHNIQUE == 3
-    float met = search_cones(uv - light_slope * deep, light_slope, length(metric_light), deep - shadow_slack);
-    return met < deep - shadow_slack ? 0.0 : 1.0;
+    bool inside;
+    search_cones(uv - light_slope * deep, light_slope, length(metric_light), deep - shadow_slack, inside);
+    return inside ? 0.0 : 1.0;
 #else
     int turns = int(ceil(float(turns_for(metric_light)) * deep));
     float step_size = (deep - shadow_slack) / float(turns);
@@ -206,6 +215,9 @@ void main() {
     level = level_of(side_x, side_y);
     even_level = floor(level + 0.5);
 #ifdef RIVAL_TRIANGLES
+    // Of the relief that shows which lies behind the object surface.
+    vec2 entered = pattern_uv - slope * drop / metres;
+    if (any(lessThan(entered, window.xy)) || any(greaterThan(entered, window.zw))) discard;
     // Vertices may stand further apart than texels: light is asked for by the texel's own height.
     color = vec4(shaded(pattern_uv, reached_by_light(pattern_uv, fall_at(pattern_uv))), 1.0);
 #else

@@ -31,6 +31,7 @@ struct RivalSettings {
     float anisotropy = 4.0f;  // how much longer than wide the footprint is that a lookup filters with the detail of its width
     bool wide_heights = false;  // 16 bits instead of 8
     double edge = 1e-3;     // triangles: uv between vertices
+    std::array<double, 4> window{-1e9, -1e9, 1e9, 1e9};  // triangles: low and high uv of the object surface, where the mesh reaches beyond
     float shadow_slack = 0.003f;  // of the map's range, beyond the step of its heights: what rises so little throws no shadow
     bool passes = false;    // every sample a pass of its own, instead of a loop in the shader; triangles always are
 };

@@ -14,6 +14,7 @@ out vec3 world_along_v;
 uniform sampler2D heights;
 uniform vec2 drops;        // metres below the object surface, of the highest place and of the lowest
 uniform float grid_level;  // mip level as coarse as the vertices stand
+out float drop;            // metres below the object surface
 #endif
 
 void main() {
@@ -23,7 +24,8 @@ void main() {
     world_along_u = along_u;
     world_along_v = along_v;
 #ifdef RIVAL_TRIANGLES
-    world_position -= normal * mix(drops.y, drops.x, textureLod(heights, uv, grid_level).r);
+    drop = mix(drops.y, drops.x, textureLod(heights, uv, grid_level).r);
+    world_position -= normal * drop;
 #endif
     gl_Position = world_to_clip * vec4(world_position, 1.0);
 }

@@ -13,7 +13,7 @@ constexpr double kPatience = 400.0;
 
 bool same(const RivalSettings& a, const RivalSettings& b) {
     return a.size == b.size && a.samples == b.samples && a.places == b.places && a.steps == b.steps && a.bias == b.bias &&
-           a.anisotropy == b.anisotropy && a.wide_heights == b.wide_heights && a.edge == b.edge && a.refinements == b.refinements;
+           a.anisotropy == b.anisotropy && a.wide_heights == b.wide_heights && a.edge == b.edge && a.refinements == b.refinements && a.passes == b.passes;
 }
 
 std::vector<int> samples_of(Technique technique) {
@@ -68,7 +68,7 @@ RivalSettings Searcher::best_quality(double wanted) {
     best.size = std::min(limits_.finest, 4096);
     best.samples = technique_ == Technique::normals ? 32 : technique_ == Technique::triangles ? 4 : 16;
     best.steps = steps_of(technique_).back();
-    best.refinements = technique_ == Technique::parallax ? 3 : 6;
+    best.refinements = technique_ == Technique::parallax ? 3 : technique_ == Technique::cones ? 10 : 6;
     best.bias = -2.0f;
     best.edge = stage_.pixel_in_uv();
     best.wide_heights = marches(technique_);
@@ -86,6 +86,8 @@ RivalSettings Searcher::best_quality(double wanted) {
     } else if (technique_ != Technique::normals && try_setting(best).decibels < wanted) {
         with([](RivalSettings& s) { s.samples = 64; });
     }
+    // An outline gets as many samples of coverage as there are passes.
+    if (technique_ != Technique::triangles && stage_.shows_outline() && try_setting(best).decibels < wanted) with([](RivalSettings& s) { s.passes = true; });
     if (limits_.finest > best.size && try_setting(best).decibels < wanted && try_setting(best).decibels > wanted - kGainOfTwice)
         with([&](RivalSettings& s) { s.size = limits_.finest; });
     return best;
@@ -118,6 +120,11 @@ RivalSettings Searcher::cheapest(RivalSettings settings, double decibels) {
             if (!holds(fewer, decibels)) break;
             settings = fewer;
         }
+    }
+    if (technique_ == Technique::cones) {
+        RivalSettings rough = settings;
+        rough.refinements = 6;
+        if (holds(rough, decibels)) settings = rough;
     }
     if (settings.wide_heights) {
         RivalSettings narrow = settings;

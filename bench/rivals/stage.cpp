@@ -26,22 +26,26 @@ std::string key_of(const bench::Subject& subject) {
 
 MapPaint paint_of(const scenes::Part& part) { return {part.color, part.metallic, part.roughness}; }
 
-// The rectangle that a view shows, in uv, a little wider; whole where the view meets the horizon.
-bench::Extent seen_extent(const bench::PlaneView& view, const bench::Extent& whole, Vec2 size) {
+bench::Extent cut(const bench::Extent& a, const bench::Extent& b) {
+    return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}, {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
+}
+
+// The rectangle that a view shows, in uv, of what lies `drop` metres below the object surface or less.
+bench::Extent seen_extent(const bench::PlaneView& view, Vec2 size, double drop) {
     const bench::PlaneCamera camera = bench::camera_of(view, size);
     bench::Extent seen{{1e9, 1e9}, {-1e9, -1e9}};
-    for (const double x : {-1.05, 1.05})
-        for (const double y : {-1.05, 1.05}) {
-            std::array<double, 3> way;
-            for (std::size_t i = 0; i < 3; ++i) way[i] = camera.forward[i] + camera.tangent * (x * camera.aspect * camera.right[i] + y * camera.up[i]);
-            if (way[1] >= -1e-6) return whole;
-            const double t = camera.eye[1] / -way[1];
-            const Vec2 uv{(camera.eye[0] + way[0] * t) / size.x + 0.5, (camera.eye[2] + way[2] * t) / size.y + 0.5};
-            seen.low = {std::min(seen.low.x, uv.x), std::min(seen.low.y, uv.y)};
-            seen.high = {std::max(seen.high.x, uv.x), std::max(seen.high.y, uv.y)};
-        }
-    return {{std::max(seen.low.x, whole.low.x), std::max(seen.low.y, whole.low.y)},
-            {std::min(seen.high.x, whole.high.x), std::min(seen.high.y, whole.high.y)}};
+    for (const double x : {-1.0, 1.0})
+        for (const double y : {-1.0, 1.0})
+            for (const double height : {0.0, -drop}) {
+                std::array<double, 3> way;
+                for (std::size_t i = 0; i < 3; ++i) way[i] = camera.forward[i] + camera.tangent * (x * camera.aspect * camera.right[i] + y * camera.up[i]);
+                // Towards the horizon as far as anything is looked at.
+                const double t = (camera.eye[1] - height) / std::max(-way[1], 0.02);
+                const Vec2 uv{(camera.eye[0] + way[0] * t) / size.x + 0.5, (camera.eye[2] + way[2] * t) / size.y + 0.5};
+                seen.low = {std::min(seen.low.x, uv.x), std::min(seen.low.y, uv.y)};
+                seen.high = {std::max(seen.high.x, uv.x), std::max(seen.high.y, uv.y)};
+            }
+    return seen;
 }
 
 }  // namespace
@@ -75,7 +79,7 @@ bool Stage::shows_features() const { return std::count(truth_.feature.begin(), t
 
 bool Stage::shows_outline() const {
     const ResolvedPattern& pattern = subject_.prepared.resolved;
-    const bench::Extent whole = bench::extent_of(view_, pattern), seen = seen_extent(view_, whole, pattern.size);
+    const bench::Extent whole = bench::extent_of(view_, pattern), seen = seen_extent(view_, pattern.size, 0.0);
     return seen.low.x <= whole.low.x || seen.low.y <= whole.low.y || seen.high.x >= whole.high.x || seen.high.y >= whole.high.y;
 }
 
@@ -87,9 +91,13 @@ Result<Rival*> Stage::rival_of(const RivalSettings& settings) {
     if (drawn) return &*drawn->rival;
     auto made = std::make_unique<Drawn>(Drawn{asset_, {}});
     if (triangles) {
+        // No further around the window than a ray that enters it can reach.
         const Vec2 size = subject_.prepared.resolved.size;
-        const auto seen = seen_extent(view_, bench::extent_of(view_, subject_.prepared.resolved), size);
-        made->asset = bench::asset_of(subject_, seen);
+        const double deep = maps_.surface().lowest, reach = deep / std::tan(0.5 * view_.elevation * 0.0174533);
+        bench::Extent around = bench::extent_of(view_, subject_.prepared.resolved);
+        around.low = {around.low.x - reach / size.x, around.low.y - reach / size.y};
+        around.high = {around.high.x + reach / size.x, around.high.y + reach / size.y};
+        made->asset = bench::asset_of(subject_, cut(around, seen_extent(view_, size, deep)));
         made->asset.primitives[0] = subdivide(made->asset.primitives[0], settings.edge);
     }
     auto rival = Rival::load(context_, made->asset, options_, settings.technique, maps_.surface().channels(), shows_outline());
@@ -103,7 +111,10 @@ Result<Draw> Stage::rival(const RivalSettings& settings) {
     auto rival = rival_of(settings);
     if (!rival) return rival.error();
     const RivalMaps* maps = &maps_.maps_for(settings);
-    return Draw([drawn = *rival, maps, settings] { return drawn->draw(settings, {maps}); });
+    const bench::Extent whole = bench::extent_of(view_, subject_.prepared.resolved);
+    RivalSettings framed = settings;
+    framed.window = {whole.low.x, whole.low.y, whole.high.x, whole.high.y};
+    return Draw([drawn = *rival, maps, settings = framed] { return drawn->draw(settings, {maps}); });
 }
 
 Result<Draw> Stage::burin(const std::function<void(RenderOptions&)>& apply) {
