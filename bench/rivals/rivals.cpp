@@ -1,6 +1,6 @@
 // burin beside the raster rivals: which is the faster at equal error, and for how many bytes.
 //
-//     bench_rivals [--scene NAME] [--view NAME] [--technique NAME] [--quick] [--finest SIZE] [--pictures FOLDER] [--cache FOLDER] [--lines FILE]
+//     bench_rivals [--scene NAME ...] [--view NAME] [--technique NAME] [--quick] [--finest SIZE] [--pictures FOLDER] [--cache FOLDER] [--lines FILE]
 //
 // Tables in Markdown go to standard output; --lines gets one JSON object for everything that was drawn.
 #include <algorithm>
@@ -19,13 +19,14 @@ namespace {
 
 struct Settings {
     bool quick = false;     // smaller pictures, fewer runs
-    std::string scene, view, technique;  // only these; "": all
+    std::vector<std::string> scenes;  // only these; none: all flat ones
+    std::string view, technique;      // only this one; "": all
     std::string pictures, cache, lines;
     int finest = 8192;
 };
 
 int usage(const std::string& word) {
-    std::fprintf(stderr, "bench_rivals: error: '%s' is no option or not followed by what it needs; options: --scene NAME --view NAME --technique NAME "
+    std::fprintf(stderr, "bench_rivals: error: '%s' is no option or not followed by what it needs; options: --scene NAME (more than once if wanted) --view NAME --technique NAME "
                  "--quick --finest SIZE (a power of two from 512 to 8192) --pictures FOLDER --cache FOLDER --lines FILE\n", word.c_str());
     return 2;
 }
@@ -123,9 +124,10 @@ int run(const Settings& settings) {
     Report report(settings.lines);
     report.begin();
     for (const scenes::SceneEntry& entry : scenes::scene_table()) {
-        if (!settings.scene.empty() && settings.scene != entry.name) continue;
+        const auto& wanted = settings.scenes;
+        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), entry.name) == wanted.end()) continue;
         const scenes::Scene scene = entry.make();
-        if (!scene.flat && settings.scene.empty()) continue;
+        if (!scene.flat && wanted.empty()) continue;
         for (std::size_t part = 0; part < scene.parts.size(); ++part)
             if (const auto subject = bench::prepare_subject(entry, part)) measure_subject(settings, **context, *subject, report);
             else std::fprintf(stderr, "%s is refused: %s\n", entry.name, subject.error().message.c_str());
@@ -144,7 +146,7 @@ int main(int argc, char** argv) {
         const std::string word = argv[i];
         const bool more = i + 1 < argc;
         if (word == "--quick") settings.quick = true;
-        else if (word == "--scene" && more) settings.scene = argv[++i];
+        else if (word == "--scene" && more) settings.scenes.push_back(argv[++i]);
         else if (word == "--view" && more) settings.view = argv[++i];
         else if (word == "--technique" && more) settings.technique = argv[++i];
         else if (word == "--pictures" && more) settings.pictures = argv[++i];
