@@ -10,6 +10,7 @@ namespace {
 constexpr double kGainOfTwice = 6.0;
 // Of triangles neither finer ones nor more samples are tried where a picture takes so many milliseconds.
 constexpr double kPatience = 400.0;
+constexpr double kWidestEdge = 16.0;  // pixels between vertices
 
 bool same(const RivalSettings& a, const RivalSettings& b) {
     return a.size == b.size && a.samples == b.samples && a.places == b.places && a.steps == b.steps && a.bias == b.bias &&
@@ -105,7 +106,7 @@ RivalSettings Searcher::cheapest(RivalSettings settings, double decibels) {
         settings = fewer;
         break;
     }
-    while (technique_ == Technique::triangles) {
+    while (technique_ == Technique::triangles && settings.edge < kWidestEdge * stage_.pixel_in_uv()) {
         RivalSettings wider = settings;
         wider.edge *= 2.0;
         if (!holds(wider, decibels)) break;
