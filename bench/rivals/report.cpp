@@ -33,11 +33,11 @@ std::string least_of(const std::vector<double>& values) { return values.empty() 
 
 void print_json(std::FILE* file, const ViewResult& result, const char* technique, const std::string& setting, const RivalSettings* rival,
                 const Trial& trial, double plain, double blocks) {
-    std::fprintf(file, "{\"scene\": \"%s\", \"view\": \"%s\", \"technique\": \"%s\", \"setting\": \"%s\", ", result.scene.c_str(), result.view.c_str(),
-                 technique, setting.c_str());
+    std::fprintf(file, "{\"scene\": \"%s\", \"view\": \"%s\", \"technique\": \"%s\", \"setting\": \"%s\", ", result.scene.c_str(),
+                 result.view.c_str(), technique, setting.c_str());
     if (rival != nullptr)
-        std::fprintf(file, "\"size\": %d, \"samples\": %d, \"steps\": %d, \"places\": \"%s\", \"bias\": %g, ", rival->size, rival->samples, rival->steps,
-                     rival->places == Places::grid ? "grid" : "hammersley", double(rival->bias));
+        std::fprintf(file, "\"size\": %d, \"samples\": %d, \"steps\": %d, \"places\": \"%s\", \"bias\": %g, ", rival->size,
+                     rival->samples, rival->steps, rival->places == Places::grid ? "grid" : "hammersley", double(rival->bias));
     std::fprintf(file, "\"ms\": %.3f, \"dB\": %.2f, \"bytes\": %.0f, \"block_bytes\": %.0f}\n", trial.milliseconds, trial.decibels, plain, blocks);
 }
 
@@ -81,14 +81,12 @@ const TechniqueResult& ViewResult::matched() const {
     return found != nullptr ? *found : *nearest();
 }
 
-BurinTried* ViewResult::burin_at(double decibels) {
-    BurinTried* found = nullptr;
-    for (BurinTried& one : burin)
+const BurinTried* ViewResult::burin_at(double decibels) const {
+    const BurinTried* found = nullptr;
+    for (const BurinTried& one : burin)
         if (one.trial.decibels >= decibels && (found == nullptr || one.trial.milliseconds < found->trial.milliseconds)) found = &one;
     return found;
 }
-
-const BurinTried* ViewResult::burin_at(double decibels) const { return const_cast<ViewResult*>(this)->burin_at(decibels); }
 
 double ViewResult::time_ratio() const {
     const BurinTried& own = is_reached() ? burin[0] : *burin_at(matched_decibels);
@@ -106,10 +104,12 @@ Report::~Report() {
 }
 
 void Report::begin() const {
-    std::printf("### At burin's own error\n\nburin: its default setting. Rival: the fastest that reaches that PSNR. Where none does, in brackets the best that any does, and the fastest\n"
-                "of them a decibel below; against burin's fastest setting that is as good. Setting: texels per side, steps, samples per pixel (h: Hammersley).\n"
-                "Ratios, rival's over burin's: time; bytes of the map over those of burin's two textures, plain and in blocks.\n\n"
-                "| scene | view | burin dB | ms | kB | with prefilter | unreached: best dB | rival | setting | dB | ms | burin ms | time | bytes | blocks |\n"
+    std::printf("### At burin's own error\n\n"
+                "burin: its default setting. Rival: the fastest that reaches that PSNR. Where none does, in brackets the best that any does, and\n"
+                "the fastest of them a decibel below, against burin's fastest setting that is as good. Setting: texels per side, steps, samples per\n"
+                "pixel (h: Hammersley). Ratios, rival's over burin's: time; bytes of the map over those of burin's two textures, plain and in blocks.\n\n"
+                "| scene | view | burin dB | ms | kB | with prefilter | unreached: best dB | rival | setting | dB | ms | burin ms | time | bytes "
+                "| blocks |\n"
                 "|---|---|--:|--:|--:|--:|--:|---|---|--:|--:|--:|--:|--:|--:|\n");
 }
 
@@ -120,9 +120,10 @@ void Report::add(const ViewResult& result, const Stage& stage) {
     std::printf("| %s | %s | %.1f | %.1f | %.1f | %.1f | ", result.scene.c_str(), result.view.c_str(), own.decibels, own.milliseconds,
                 result.bytes.stored / 1000.0, result.bytes.drawn / 1000.0);
     if (!result.is_reached()) std::printf("(%.1f)", result.nearest()->equal.best.trial.decibels);
-    const char* row = result.is_reached() ? " | %s | %s | %.1f | %.1f | %.1f | %.2f | %.0f | %.0f |\n" : " | %s | %s | %.1f | %.1f | %.1f | (%.2f) | %.0f | %.0f |\n";
-    std::printf(row, name_of(rival.technique), text_of(rival.matched.best.settings).c_str(), other.decibels, other.milliseconds,
-                other.milliseconds / result.time_ratio(), result.time_ratio(), rival.bytes.plain / result.bytes.stored, rival.bytes.blocks / result.bytes.stored);
+    std::printf(" | %s | %s | %.1f | %.1f | %.1f | ", name_of(rival.technique), text_of(rival.matched.best.settings).c_str(), other.decibels,
+                other.milliseconds, other.milliseconds / result.time_ratio());
+    std::printf(result.is_reached() ? "%.2f | " : "(%.2f) | ", result.time_ratio());
+    std::printf("%.0f | %.0f |\n", rival.bytes.plain / result.bytes.stored, rival.bytes.blocks / result.bytes.stored);
     std::fflush(stdout);
     if (lines_ != nullptr) write_lines(result, stage);
     results_.push_back(result);
@@ -140,7 +141,8 @@ void Report::write_lines(const ViewResult& result, const Stage& stage) const {
 }
 
 void Report::print_techniques() const {
-    std::printf("\n### Every technique at burin's own error\n\nMilliseconds of the fastest setting that reaches it; else the best dB, in brackets; slower: already its least setting is.\n\n"
+    std::printf("\n### Every technique at burin's own error\n\n"
+                "Milliseconds of the fastest setting that reaches it; else the best dB, in brackets; slower: already its least setting is.\n\n"
                 "| scene | view | burin dB |");
     for (const Technique technique : kTechniques) std::printf(" %s |", name_of(technique));
     std::printf("\n|---|---|--:|--:|--:|--:|--:|--:|\n");
@@ -157,7 +159,8 @@ void Report::print_techniques() const {
 }
 
 void Report::print_fixed() const {
-    std::printf("\n### At %.0f dB\n\nMilliseconds of the fastest setting of each, burin's chosen as freely.\n\n| scene | view | burin |", kFixedDecibels);
+    std::printf("\n### At %.0f dB\n\nMilliseconds of the fastest setting of each, burin's chosen as freely.\n\n| scene | view | burin |",
+                kFixedDecibels);
     for (const Technique technique : kTechniques) std::printf(" %s |", name_of(technique));
     std::printf(" best rival over burin |\n|---|---|---|--:|--:|--:|--:|--:|--:|\n");
     for (const ViewResult& result : results_) {
@@ -182,9 +185,12 @@ void Report::print_fixed() const {
 }
 
 void Report::print_summary() const {
-    std::printf("\n### Summary\n\nViews in which burin has %.0f dB or more. Time of the rival over burin's: the median with unreached views counted as slower than any other; the\n"
-                "least of the views in which a rival reaches burin's error; and, in the unreached ones, at a decibel below the rivals' best, median and least.\n\n"
-                "| scenes | views | unreached | median | least | unreached: median, least | bytes plain: median, least | blocks: median, least |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
+    std::printf("\n### Summary\n\n"
+                "Views in which burin has %.0f dB or more. Time of the rival over burin's: the median with unreached views counted as slower than any\n"
+                "other; the least of the views in which a rival reaches burin's error; and, in the unreached ones, at a decibel below the rivals'\n"
+                "best, median and least.\n\n"
+                "| scenes | views | unreached | median | least | unreached: median, least | bytes plain: median, least | blocks: median, least |\n"
+                "|---|--:|--:|--:|--:|--:|--:|--:|\n",
                 kLeastDecibels);
     for (const bool grooves : {true, false}) {
         std::vector<double> ratios, reached, matched, plain, blocks;
@@ -196,8 +202,8 @@ void Report::print_summary() const {
             blocks.push_back(result.matched().bytes.blocks / result.bytes.stored);
         }
         if (ratios.empty()) continue;
-        std::printf("| %s | %zu | %zu | %s | %s | %s, %s | %s, %s | %s, %s |\n", grooves ? "grooves" : "ridges and CSG", ratios.size(), matched.size(),
-                    median_of(ratios).c_str(), least_of(reached).c_str(), median_of(matched).c_str(), least_of(matched).c_str(),
+        std::printf("| %s | %zu | %zu | %s | %s | %s, %s | %s, %s | %s, %s |\n", grooves ? "grooves" : "ridges and CSG", ratios.size(),
+                    matched.size(), median_of(ratios).c_str(), least_of(reached).c_str(), median_of(matched).c_str(), least_of(matched).c_str(),
                     median_of(plain).c_str(), least_of(plain).c_str(), median_of(blocks).c_str(), least_of(blocks).c_str());
     }
 }

@@ -47,7 +47,6 @@ struct ViewResult {
     const TechniqueResult& matched() const;
     // burin's fastest setting of at least so many decibels; null where none has. The default stands for itself at its own error.
     const BurinTried* burin_at(double decibels) const;
-    BurinTried* burin_at(double decibels);
     // Time of the fastest technique over burin's, at matched_decibels; by burin's default where that is its own error.
     double time_ratio() const;
 };

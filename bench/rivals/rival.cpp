@@ -137,7 +137,8 @@ struct Rival::State {
         program.set("bias", settings.bias);
         program.set("shadow_slack", settings.shadow_slack + (settings.wide_heights ? 0.0f : 2.0f / 255.0f));
         program.set("anisotropy", settings.anisotropy);
-        gl.Uniform4f(program.at("window"), float(settings.window[0]), float(settings.window[1]), float(settings.window[2]), float(settings.window[3]));
+        const auto& window = settings.window;
+        gl.Uniform4f(program.at("window"), float(window[0]), float(window[1]), float(window[2]), float(window[3]));
         program.set("grid_level", float(std::max(0.0, std::log2(settings.edge * settings.size))));
     }
 
@@ -189,35 +190,48 @@ gl::Accumulator Rival::draw(const RivalSettings& settings, const std::vector<con
     return sums;
 }
 
+namespace {
+
+// Vertices and triangles of one triangle cut into n x n.
+void add_subdivided(const Primitive& primitive, const std::uint32_t* corner, int n, Primitive& fine) {
+    const std::uint32_t base = std::uint32_t(fine.positions.size() / 3);
+    const auto add = [&](const std::vector<float>& values, std::size_t width, double s, double t, std::vector<float>& to) {
+        const float* of[3];
+        for (std::size_t k = 0; k < 3; ++k) of[k] = &values[width * corner[k]];
+        for (std::size_t c = 0; c < width; ++c) to.push_back(float((1.0 - s - t) * double(of[0][c]) + s * double(of[1][c]) + t * double(of[2][c])));
+    };
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n - i; ++j) {
+            const double s = double(i) / n, t = double(j) / n;
+            add(primitive.positions, 3, s, t, fine.positions);
+            add(primitive.normals, 3, s, t, fine.normals);
+            add(primitive.uvs, 2, s, t, fine.uvs);
+        }
+    const auto at = [&](int i, int j) { return base + std::uint32_t(i * (n + 1) - i * (i - 1) / 2 + j); };
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n - i; ++j) {
+            fine.indices.insert(fine.indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1)});
+            if (j + 1 < n - i) fine.indices.insert(fine.indices.end(), {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+}
+
+double longest_side(const Primitive& primitive, const std::uint32_t* corner) {
+    double longest = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float *a = &primitive.uvs[2 * corner[k]], *b = &primitive.uvs[2 * corner[(k + 1) % 3]];
+        longest = std::max(longest, std::hypot(double(a[0] - b[0]), double(a[1] - b[1])));
+    }
+    return longest;
+}
+
+}  // namespace
+
 Primitive subdivide(const Primitive& primitive, double edge) {
     Primitive fine;
     fine.material = primitive.material;
     for (std::size_t first = 0; first + 2 < primitive.indices.size(); first += 3) {
         const std::uint32_t* corner = &primitive.indices[first];
-        double longest = 0.0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t a = corner[k], b = corner[(k + 1) % 3];
-            longest = std::max(longest, std::hypot(double(primitive.uvs[2 * a] - primitive.uvs[2 * b]), double(primitive.uvs[2 * a + 1] - primitive.uvs[2 * b + 1])));
-        }
-        const int n = std::max(1, int(std::ceil(longest / edge)));
-        const std::uint32_t base = std::uint32_t(fine.positions.size() / 3);
-        const auto mixed = [&](const std::vector<float>& values, std::size_t width, double s, double t, std::vector<float>& to) {
-            for (std::size_t c = 0; c < width; ++c)
-                to.push_back(float((1.0 - s - t) * values[width * corner[0] + c] + s * values[width * corner[1] + c] + t * values[width * corner[2] + c]));
-        };
-        for (int i = 0; i <= n; ++i)
-            for (int j = 0; j <= n - i; ++j) {
-                const double s = double(i) / n, t = double(j) / n;
-                mixed(primitive.positions, 3, s, t, fine.positions);
-                mixed(primitive.normals, 3, s, t, fine.normals);
-                mixed(primitive.uvs, 2, s, t, fine.uvs);
-            }
-        const auto at = [&](int i, int j) { return base + std::uint32_t(i * (n + 1) - i * (i - 1) / 2 + j); };
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j < n - i; ++j) {
-                fine.indices.insert(fine.indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1)});
-                if (j + 1 < n - i) fine.indices.insert(fine.indices.end(), {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-            }
+        add_subdivided(primitive, corner, std::max(1, int(std::ceil(longest_side(primitive, corner) / edge))), fine);
     }
     return fine;
 }

@@ -26,14 +26,17 @@ struct Settings {
 };
 
 int usage(const std::string& word) {
-    std::fprintf(stderr, "bench_rivals: error: '%s' is no option or not followed by what it needs; options: --scene NAME (more than once if wanted) --view NAME --technique NAME "
-                 "--quick --finest SIZE (a power of two from 512 to 8192) --pictures FOLDER --cache FOLDER --lines FILE\n", word.c_str());
+    std::fprintf(stderr,
+                 "bench_rivals: error: '%s' is no option or not followed by what it needs; options: --scene NAME (more than once if wanted) "
+                 "--view NAME --technique NAME --quick --finest SIZE (a power of two from 512 to 8192) --pictures FOLDER --cache FOLDER "
+                 "--lines FILE\n",
+                 word.c_str());
     return 2;
 }
 
 // Medians of runs that take turns, of the settings that the first table compares.
 void time_in_turns(Stage& stage, ViewResult& result, int runs) {
-    BurinTried* own = result.burin_at(result.matched_decibels);
+    BurinTried* own = &result.burin[std::size_t(result.burin_at(result.matched_decibels) - result.burin.data())];
     std::vector<Draw> draws = {*stage.burin([](RenderOptions&) {}), *stage.burin(burin_setting(own->name))};
     std::vector<Trial*> trials = {&result.burin[0].trial, &own->trial};
     for (TechniqueResult& one : result.techniques)
@@ -120,7 +123,8 @@ void measure_subject(const Settings& settings, const gl::Context& context, const
 int run(const Settings& settings) {
     auto context = gl::open_context(Backend::osmesa);
     if (!context) return std::fprintf(stderr, "bench_rivals: error: %s\n", context.error().message.c_str()), 1;
-    std::printf("Renderer: %s. Threads: %u.%s\n\n", (*context)->describe().c_str(), std::thread::hardware_concurrency(), settings.quick ? " Quick." : "");
+    std::printf("Renderer: %s. Threads: %u.%s\n\n", (*context)->describe().c_str(), std::thread::hardware_concurrency(),
+                settings.quick ? " Quick." : "");
     Report report(settings.lines);
     report.begin();
     for (const scenes::SceneEntry& entry : scenes::scene_table()) {

@@ -9,12 +9,13 @@ namespace {
 // A map of twice the size halves the width of what its texels blur: 6 dB at best.
 constexpr double kGainOfTwice = 6.0;
 // Of triangles neither finer ones nor more samples are tried where a picture takes so many milliseconds.
-constexpr double kPatience = 400.0;
+constexpr double kPatience = 150.0;
 constexpr double kWidestEdge = 16.0;  // pixels between vertices
 
 bool same(const RivalSettings& a, const RivalSettings& b) {
     return a.size == b.size && a.samples == b.samples && a.places == b.places && a.steps == b.steps && a.bias == b.bias &&
-           a.anisotropy == b.anisotropy && a.wide_heights == b.wide_heights && a.edge == b.edge && a.refinements == b.refinements && a.passes == b.passes;
+           a.anisotropy == b.anisotropy && a.wide_heights == b.wide_heights && a.edge == b.edge && a.refinements == b.refinements &&
+           a.passes == b.passes;
 }
 
 std::vector<int> samples_of(Technique technique) {
@@ -52,7 +53,7 @@ Trial Searcher::try_setting(const RivalSettings& settings) {
         if (same(one.settings, settings)) return one.trial;
     auto draw = stage_.rival(settings);
     Tried tried{settings, {}};
-    if (draw) tried.trial = stage_.measure(*draw, 1);
+    if (draw) tried.trial = stage_.measure(*draw);
     else std::fprintf(stderr, "%s: %s\n", name_of(settings.technique), draw.error().message.c_str());
     tried_.push_back(tried);
     return tried_.back().trial;
@@ -88,7 +89,8 @@ RivalSettings Searcher::best_quality(double wanted) {
         with([](RivalSettings& s) { s.samples = 64; });
     }
     // An outline gets as many samples of coverage as there are passes.
-    if (technique_ != Technique::triangles && stage_.shows_outline() && try_setting(best).decibels < wanted) with([](RivalSettings& s) { s.passes = true; });
+    if (technique_ != Technique::triangles && stage_.shows_outline() && try_setting(best).decibels < wanted)
+        with([](RivalSettings& s) { s.passes = true; });
     if (limits_.finest > best.size && try_setting(best).decibels < wanted && try_setting(best).decibels > wanted - kGainOfTwice)
         with([&](RivalSettings& s) { s.size = limits_.finest; });
     return best;
@@ -170,7 +172,7 @@ Result<std::vector<BurinTried>> try_burin(Stage& stage) {
     for (const NamedSetting& setting : kBurin) {
         auto draw = stage.burin(setting.apply);
         if (!draw) return draw.error();
-        tried.push_back({setting.name, stage.measure(*draw, 3)});
+        tried.push_back({setting.name, stage.measure(*draw)});
     }
     return tried;
 }

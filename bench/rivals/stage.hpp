@@ -17,7 +17,7 @@ namespace burin::rivals {
 // What one way of drawing came to.
 struct Trial {
     double decibels = 0.0;  // against the truth, over the pixels that meet a feature
-    double milliseconds = 0.0;  // processor time of a picture: the median of its runs; programs, textures and meshes were there already
+    double milliseconds = 0.0;  // processor time of a picture; programs, textures and meshes were there already
 };
 
 // Maps of a scene, made when first asked for.
@@ -56,8 +56,8 @@ class Stage {
     Result<Draw> rival(const RivalSettings& settings);
     Result<Draw> burin(const std::function<void(RenderOptions&)>& apply);
 
-    // Draws once for the error, and `runs` times for the time.
-    Trial measure(const Draw& draw, int runs) const;
+    // Draws once.
+    Trial measure(const Draw& draw) const;
     RgbaImage picture(const Draw& draw) const { return draw().image(); }
 
   private:

@@ -34,7 +34,8 @@ Paints paints_of(const ResolvedPattern& pattern, const MapPaint& base) {
     Paints paints{{base}, {}};
     for (const Style& style : pattern.styles) {
         const Material& own = pattern.materials[style.material];
-        const MapPaint paint = own.overrides ? MapPaint{{own.base_color[0], own.base_color[1], own.base_color[2]}, own.metallic, own.roughness} : base;
+        MapPaint paint = base;
+        if (own.overrides) paint = {{own.base_color[0], own.base_color[1], own.base_color[2]}, own.metallic, own.roughness};
         const auto found = std::find(paints.list.begin(), paints.list.end(), paint);
         paints.of_style.push_back(std::uint8_t(found - paints.list.begin()));
         if (found == paints.list.end()) paints.list.push_back(paint);

@@ -23,7 +23,8 @@ SurfaceMaps random_maps(std::mt19937_64& random, bool repeat) {
     level.size = kSize;
     std::vector<double> heights(kSize * kSize, 0.2);
     for (int k = 0; k < 60; ++k) {
-        const double x = any(random), y = any(random), radius = 0.02 + 0.05 * any(random), high = 1.2 * any(random) - 0.3, edge = 0.01 + 0.05 * any(random);
+        const double x = any(random), y = any(random), radius = 0.02 + 0.05 * any(random);
+        const double high = 1.2 * any(random) - 0.3, edge = 0.01 + 0.05 * any(random);
         for (int j = 0; j < kSize; ++j)
             for (int i = 0; i < kSize; ++i) {
                 double dx = (i + 0.5) / kSize - x, dy = (j + 0.5) / kSize - y;

@@ -42,7 +42,7 @@ double decibels_of(Technique technique, const bench::Subject& subject, const ben
     Stage stage(context, subject, maps, view, "");
     const auto draw = stage.rival(settings_of(technique, stage));
     EXPECT_TRUE(bool(draw)) << draw.error().message;
-    return stage.measure(*draw, 0).decibels;
+    return stage.measure(*draw).decibels;
 }
 
 TEST(Rivals, DrawAGrooveWithItsShadow) {
@@ -69,9 +69,9 @@ TEST(Rivals, DrawTheSameInALoopAndInPasses) {
     SceneMaps maps(**context, subject, 1024, "");
     Stage stage(**context, subject, maps, view_of(subject, 45.0, 35.0), "");
     RivalSettings settings = settings_of(Technique::relief, stage);
-    const double loop = stage.measure(*stage.rival(settings), 0).decibels;
+    const double loop = stage.measure(*stage.rival(settings)).decibels;
     settings.passes = true;
-    EXPECT_NEAR(stage.measure(*stage.rival(settings), 0).decibels, loop, 1.0);
+    EXPECT_NEAR(stage.measure(*stage.rival(settings)).decibels, loop, 1.0);
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ TEST(SurfaceMaps, HoldTheTruth) {
         for (int i = 0; i < 256 * 256; i += 97) {
             const SurfacePoint point = truth.surface_at({(i % 256 + 0.5) / 256 * pattern.size.x, (i / 256 + 0.5) / 256 * pattern.size.y});
             const double height = pattern.base_offset - maps.lowest + level.heights[std::size_t(i)] / 65535.0 * (maps.lowest - maps.highest);
-            const double lean = std::hypot(level.normals[2 * std::size_t(i)] / 32767.0 - point.normal[0], level.normals[2 * std::size_t(i) + 1] / 32767.0 - point.normal[1]);
+            const std::int16_t* normal = &level.normals[2 * std::size_t(i)];
+            const double lean = std::hypot(normal[0] / 32767.0 - point.normal[0], normal[1] / 32767.0 - point.normal[1]);
             off += std::abs(height - point.height) > 1e-3 * pattern.depth || lean > 0.02;
         }
         // A texel beside a tip may be taken from its neighbours.
