@@ -27,7 +27,7 @@ struct Settings {
 
 int usage(const std::string& word) {
     std::fprintf(stderr,
-                 "bench_rivals: error: '%s' is no option or not followed by what it needs; options: --scene NAME (more than once if wanted) "
+                 "bench_rivals: error: '%s' is no option or technique, or not followed by what it needs; options: --scene NAME (more than once if wanted) "
                  "--view NAME --technique NAME --quick --finest SIZE (a power of two from 512 to 8192) --pictures FOLDER --cache FOLDER "
                  "--lines FILE\n",
                  word.c_str());
@@ -160,5 +160,7 @@ int main(int argc, char** argv) {
         else return usage(word);
     }
     if (settings.finest < 512 || settings.finest > 8192 || (settings.finest & (settings.finest - 1)) != 0) return usage("--finest");
+    const auto named = [&](Technique technique) { return settings.technique == name_of(technique); };
+    if (!settings.technique.empty() && std::none_of(std::begin(kTechniques), std::end(kTechniques), named)) return usage(settings.technique);
     return run(settings);
 }
