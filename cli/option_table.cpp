@@ -142,7 +142,9 @@ std::vector<OptionSpec> make_table() {
         {"--bounces", "render", integer, "COUNT", "", plain(reference.bounces), 0, 8, "", false,
          "with --backend reference: light by way of so many facets; grooves mirror and brighten themselves"},
         {"--directions", "render", integer, "COUNT", "", plain(reference.directions), 1, 1024, "", false,
-         "with --bounces: directions followed from each facet that is no mirror"},
+         "with --bounces or --environment: directions followed from each facet that is no mirror"},
+        {"--passes", "render", integer, "COUNT", "", plain(reference.passes), 2, 32, "", false,
+         "with --backend reference: facets of glass that light passes or is mirrored by, one after the other"},
         {"--threads", "render", integer, "COUNT", "", "0", 0, 256, "", false,
          "threads of --backend reference, 0 for all cores; the picture does not depend on it"},
 

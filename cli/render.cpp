@@ -107,17 +107,15 @@ RenderOptions render_options(const Arguments& arguments) {
 // What the shader is asked for says nothing to the renderer on the CPU, and the other way round.
 Status check_backend(const Arguments& arguments) {
     if (arguments.text("--backend") != "reference") {
-        for (const char* own : {"--threads", "--bounces", "--directions"})
+        for (const char* own : {"--threads", "--bounces", "--directions", "--passes"})
             if (arguments.given(own))
                 return Error{ErrorCode::invalid_argument, std::string(own) + " changes nothing with --backend " + arguments.text("--backend") + "; reference works"};
         return Done{};
     }
-    if (arguments.given("--directions") && arguments.integer("--bounces") == 0)
-        return Error{ErrorCode::invalid_argument, "--directions changes nothing without --bounces; --bounces 1 to 8 works"};
-    for (const char* other : {"--samples", "--antialiasing", "--rays", "--correct-depth", "--top", "--environment"})
+    for (const char* other : {"--samples", "--antialiasing", "--rays", "--correct-depth", "--top"})
         if (arguments.given(other))
-            return Error{ErrorCode::invalid_argument, std::string(other) + " is not for --backend reference, which takes one sample of exact areas "
-                                                      "in one light; osmesa or egl works"};
+            return Error{ErrorCode::invalid_argument, std::string(other) + " is not for --backend reference, which takes one sample of exact areas; "
+                                                      "osmesa or egl works"};
     return Done{};
 }
 
@@ -196,13 +194,28 @@ std::string left_out_of(const Asset& asset) {
     return std::string(textures ? "textures of materials" : "") + (textures && residual ? ", " : "") + (residual ? "residual" : "");
 }
 
+bool has_glass(const Asset& asset) {
+    return std::any_of(asset.materials.begin(), asset.materials.end(), [](const MaterialInfo& material) { return material.transmission > 0.0f; });
+}
+
+// Options about light that is not followed are a mistake.
+Status check_ways(const Arguments& arguments, const Asset& asset) {
+    if (arguments.given("--passes") && !has_glass(asset))
+        return Error{ErrorCode::invalid_argument, "--passes changes nothing: no material of the asset has KHR_materials_transmission"};
+    if (!arguments.given("--directions") || arguments.integer("--bounces") > 0 || arguments.text("--environment") != "none" || has_glass(asset)) return Done{};
+    return Error{ErrorCode::invalid_argument, "--directions changes nothing without --bounces or --environment; --bounces 1 to 8 works"};
+}
+
 Result<PictureSize> draw_reference(const Arguments& arguments, const Asset& asset, std::optional<Field>& said, Writer& write) {
     reference::ReferenceOptions options;
     options.view = render_options(arguments);
     if (const Status checked = check_view(arguments, asset, options.view); !checked) return checked.error();
+    if (const Status read = read_environment(arguments, options.view); !read) return read.error();
     options.threads = arguments.integer("--threads");
     options.bounces = arguments.integer("--bounces");
     options.directions = arguments.integer("--directions");
+    options.passes = arguments.integer("--passes");
+    if (const Status asked = check_ways(arguments, asset); !asked) return asked.error();
     ProgressLine line(arguments);
     options.progress = [&](double done) { line.update("render", done); };
     const auto picture = reference::render_reference(asset, options);
@@ -210,11 +223,12 @@ Result<PictureSize> draw_reference(const Arguments& arguments, const Asset& asse
     line.finish();
     const auto count = [](long value) { return static_cast<std::int64_t>(value); };
     const std::string left_out = left_out_of(asset);
-    said = group("footprints", "footprints",
-                 {{"all", "all", count(picture->stats.footprints), ""},
-                  {"by_line", "by line sampling", count(picture->stats.by_line), ""},
-                  {"by_area", "by area sampling", count(picture->stats.by_area), ""},
-                  {"left_out", "left out", left_out, left_out.empty() ? "nothing" : ""}});
+    std::vector<Field> fields{{"all", "all", count(picture->stats.footprints), ""},
+                              {"by_line", "by line sampling", count(picture->stats.by_line), ""},
+                              {"by_area", "by area sampling", count(picture->stats.by_area), ""},
+                              {"left_out", "left out", left_out, left_out.empty() ? "nothing" : ""}};
+    if (has_glass(asset)) fields.push_back({"cut_off", "cut off by --passes", picture->stats.cut_off, percent_text(picture->stats.cut_off)});
+    said = group("footprints", "footprints", std::move(fields));
     write = [image = picture->image()](const std::string& path) { return write_png(path, image); };
     return PictureSize{options.view.width, options.view.height};
 }

@@ -27,7 +27,7 @@ class Sampler {
         }
         const Polygon whole = work_.plane.close(from);
         for_each_shown(box, eye_, [&](Shown shown) {
-            const double facing = eye_.facing(geometry_.faces[shown.face].normal);
+            const double facing = eye_.facing(geometry_.faces[shown.face].normal) * (request_.within ? -1.0 : 1.0);
             shown.polygon = clip_to(work_.plane, shown.polygon, whole);
             if (!is_solid(work_.plane, shown.polygon) || !lies_before(shown)) return;
             shown.box = box_of(work_.plane, shown.polygon);

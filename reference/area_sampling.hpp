@@ -52,6 +52,7 @@ struct AreaRequest {
     Slopes slopes;       // the light
     double whole = 1.0;  // area that shares are parts of
     bool corners = false;
+    bool within = false;  // rays run in the solid and see facets from behind, up to the first that they leave it by
     // The facet that rays leave, of a beam: what lies behind it is not met.
     bool leaves = false;
     Vec3 normal, corner;

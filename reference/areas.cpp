@@ -18,11 +18,12 @@ double tolerance_in(const Region& region, const AreasOptions& options, double ar
 
 class Finder {
   public:
-    Finder(const GroovedSurface& surface, const Slopes& slopes, const AreasOptions& options, double whole, AreasWork& work, std::vector<Share>& out)
-        : surface_(surface), slopes_(slopes), options_(options), whole_(whole), work_(work), out_(out) {}
+    Finder(const GroovedSurface& surface, const Slopes& slopes, const AreasOptions& options, double whole, AreasWork& work, std::vector<Share>& out,
+           bool within = false)
+        : surface_(surface), slopes_(slopes), options_(options), whole_(whole), work_(work), out_(out), within_(within) {}
 
     void find(const Footprint& footprint, int halvings) {
-        gather_grooves(surface_, footprint, slopes_, work_.gathered);
+        gather(footprint);
         const double tolerance = tolerance_in(work_.gathered.region, options_, area_of(footprint));
         if (!options_.corners && work_.gathered.instances.empty() && is_inside_map(surface_, work_.gathered.region)) return find_plain(footprint);
         if (options_.lines && !options_.corners && sample_lines(surface_, work_.gathered, footprint, slopes_, tolerance, whole_, work_.line, out_)) {
@@ -41,7 +42,8 @@ class Finder {
         Carver carver(work_.geometry, surface_, work_.gathered, work_.carving);
         AreaRequest request;
         request.footprint = &footprint;
-        request.direction = {slopes_.view, surface_.top(), false};
+        request.direction = {slopes_.view, surface_.top(), within_};
+        request.within = within_;
         request.slopes = slopes_;
         request.whole = whole_;
         request.corners = options_.corners;
@@ -49,6 +51,12 @@ class Finder {
     }
 
   private:
+    void gather(const Footprint& footprint) {
+        if (!within_) return gather_grooves(surface_, footprint, slopes_, work_.gathered);
+        Footprint below;
+        for (const Vec2 p : footprint.corners) below.corners.push_back(p + slopes_.view * (surface_.top() - surface_.lowest()));
+        gather_grooves(surface_, below, slopes_, {surface_.lowest(), surface_.lowest(), true, true}, work_.gathered);
+    }
     // Many elements, and fewer of them near a half: not where what matters is long for the sake of low view or light.
     bool is_worth_halving(const Footprint& footprint) const {
         if (static_cast<int>(work_.gathered.instances.size()) <= options_.most_elements) return false;
@@ -74,6 +82,7 @@ class Finder {
     double whole_;
     AreasWork& work_;
     std::vector<Share>& out_;
+    bool within_;
 };
 
 }  // namespace
@@ -85,16 +94,27 @@ void find_areas(const GroovedSurface& surface, const Footprint& footprint, const
     Finder(surface, slopes, options, area_of(footprint), work, out).find(footprint, 0);
 }
 
+void find_areas_within(const GroovedSurface& surface, const Footprint& footprint, Vec2 slope, const AreasOptions& options, AreasWork& work,
+                       std::vector<Share>& out) {
+    out.clear();
+    work.area.corners.clear();
+    AreasOptions own = options;
+    own.corners = true;
+    Finder(surface, {slope, {0, 0}, false}, own, area_of(footprint), work, out, true).find(footprint, 0);
+}
+
 double find_hits(const GroovedSurface& surface, const Beam& beam, const Slopes& slopes, const AreasOptions& options, AreasWork& work,
                  std::vector<Share>& out) {
     out.clear();
     work.area.corners.clear();
     const Vec3 d = beam.direction;
-    Start start{1e300, -1e300, d.z > 0.0};
+    Start start{1e300, -1e300, d.z > 0.0, beam.within};
     AreaRequest request;
     request.direction = {Vec2{-d.x / d.z, -d.y / d.z}, surface.top(), start.rising};
     request.slopes = slopes;
     request.slopes.view = request.direction.slope;
+    request.slopes.lit = slopes.lit && !beam.within;
+    request.within = beam.within;
     request.corners = request.leaves = true;
     Footprint plan_of, shown;
     for (const Vec3 p : beam.corners) {
@@ -107,7 +127,7 @@ double find_hits(const GroovedSurface& surface, const Beam& beam, const Slopes& 
     request.whole = area_of(shown);
     if (!(request.whole > 0.0)) return 1.0;
     gather_grooves(surface, plan_of, request.slopes, start, work.gathered);
-    if (start.rising && start.low >= work.gathered.highest) return 1.0;
+    if (start.rising ? start.low >= work.gathered.highest : start.high <= work.gathered.lowest) return 1.0;
     sweep_grooves(surface, work.gathered, {tolerance_in(work.gathered.region, options, request.whole)}, work.geometry);
     Carver carver(work.geometry, surface, work.gathered, work.carving);
     request.footprint = &shown;

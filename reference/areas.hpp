@@ -41,11 +41,17 @@ struct AreasWork {
 void find_areas(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const AreasOptions& options,
                 AreasWork& work, std::vector<Share>& out);
 
+// The same for rays that come from below, through the solid: what they see of facets from behind. `footprint` is where they would
+// pass the object surface, `slope` theirs, metres over the plane per metre of fall. Nothing is lit; options.corners counts as set.
+void find_areas_within(const GroovedSurface& surface, const Footprint& footprint, Vec2 slope, const AreasOptions& options, AreasWork& work,
+                       std::vector<Share>& out);
+
 // What leaves a facet in one direction. [2008] 7
 struct Beam {
     std::vector<Vec3> corners;  // of the part of the facet that it leaves, convex and flat, in pattern space
     Vec3 normal;                // of the facet
-    Vec3 direction;             // of any length, away from the solid; not level
+    Vec3 direction;             // of any length, not level; away from the solid
+    bool within = false;        // or into it, and what it meets is seen from behind
 };
 
 // What the beam meets, as shares of it with corners; the rest of it leaves the relief: that part is returned. `slopes.view` is not

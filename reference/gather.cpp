@@ -130,7 +130,7 @@ void gather_grooves(const GroovedSurface& surface, const Footprint& footprint, c
     // What lies there may be less deep than the whole pattern.
     bound_heights(surface, out);
     set_region(slopes, start, out);
-    out.from_top = !start.rising && start.low == surface.top() && start.high == surface.top();
+    out.from_top = !start.within && !start.rising && start.low == surface.top() && start.high == surface.top();
     out.view = slopes.view;
     out.instances.clear();
     out.steps = false;

@@ -25,6 +25,7 @@ struct Slopes {
 struct Start {
     double low = 0.0, high = 0.0;
     bool rising = false;
+    bool within = false;  // in the solid
 };
 
 // The part of the plane that may matter: a footprint, swept along the view and back along the light.

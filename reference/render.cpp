@@ -1,82 +1,38 @@
 #include "render.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
 #include <mutex>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <burin/pack.hpp>
-
 #include "gl/accumulator.hpp"
 #include "gl/camera.hpp"
 
-#include "areas.hpp"
+#include "beams.hpp"
 #include "coverage.hpp"
 #include "parallel.hpp"
 
 namespace burin::reference {
 namespace {
 
-constexpr double kMostSlope = 20.0;  // 2.9 degrees
-
-// What the fragment of a triangle needs besides its footprint.
-struct Place {
-    glm::dvec3 position{0.0}, normal{0.0}, to_eye{0.0};
-    glm::dmat3 frame{1.0};  // columns: world directions of one metre along x, y, z of pattern space
-    bool patterned = false;
-};
-
-// What is met after so many bounces.
-struct Level {
-    AreasWork areas;
-    std::vector<Share> shares;
-    std::vector<Scattered> scattered;
-    Beam beam;
-};
-
 struct Work {
     CoverageWork coverage;
-    std::vector<Level> levels;  // from the eye on
-    Footprint footprint;
+    BeamWork beams;
     ReferenceStats stats;
-    std::uint64_t seed = 0;
 };
-
-// What facets are shaded for: those of one footprint have all but the place in common.
-struct Setting {
-    const Primitive& primitive;
-    const GroovedSurface& surface;
-    glm::dmat3 to_pattern;
-    Slopes slopes;
-    AreasOptions areas;
-};
-
-glm::dvec3 of_array(const std::array<float, 3>& a) { return {double(a[0]), double(a[1]), double(a[2])}; }
 
 class Renderer {
   public:
-    Renderer(const Asset& asset, const ReferenceOptions& options, const View& view)
-        : asset_(asset), options_(options), view_(view),
-          map_(asset, projection(view, options.view, 0.0, 0.0), options.view.width, options.view.height),
-          light_(direction_of(options.view.light.azimuth, options.view.light.elevation)), surfaces_(asset.materials.size()) {
+    Renderer(const Scene& scene, const ReferenceOptions& options, const View& view)
+        : scene_(scene), options_(options), view_(view),
+          map_(scene.asset(), projection(view, options.view, 0.0, 0.0), options.view.width, options.view.height), tracer_(scene, options) {
         for (std::size_t c = 0; c < 3; ++c) background_[int(c)] = double(to_linear(options.view.background[c]));
     }
 
-    Status load() {
-        for (std::size_t i = 0; i < asset_.materials.size(); ++i) {
-            if (!asset_.materials[i].has_detail) continue;
-            const auto unpacked = unpack_textures(asset_.materials[i].textures, asset_.materials[i].detail);
-            if (!unpacked) return unpacked.error();
-            surfaces_[i] = std::make_unique<GroovedSurface>(unpacked->pattern, unpacked->grid);
-        }
-        return Done{};
-    }
-
     const CoverageMap& map() const { return map_; }
+    std::size_t levels() const { return tracer_.levels(); }
 
     glm::dvec3 pixel_color(int x, int y, Work& work) const {
         map_.cover_pixel(x, y, work.coverage);
@@ -84,198 +40,80 @@ class Renderer {
         double covered = 0.0;
         for (const Covered& part : work.coverage.seen) {
             const double share = area_of(work.coverage.plane, part.polygon);
-            sum += part_color(part, work) * share;
+            sum += part_color(part, share, work) * share;
             covered += share;
         }
         return sum + background_ * std::max(0.0, 1.0 - covered);
     }
 
   private:
-    Place place_of(const ScreenTriangle& triangle, Vec2 pixel) const {
-        const Primitive& part = asset_.primitives[triangle.primitive];
-        const std::uint32_t* corner = &part.indices[triangle.first];
-        glm::dvec3 weights = triangle.weights_at(pixel);
-        weights /= weights.x + weights.y + weights.z;
-        Place place;
-        for (int k = 0; k < 3; ++k) {
-            place.position += vertex(part.positions, corner[k]) * weights[k];
-            place.normal += vertex(part.normals, corner[k]) * weights[k];
-        }
-        place.normal = glm::normalize(place.normal);
-        place.to_eye = options_.view.camera.orthographic ? -view_.direction : glm::normalize(view_.eye - place.position);
-        if (glm::dot(place.normal, place.to_eye) < 0.0 && glm::determinant(glm::dmat3(triangle.weights)) < 0.0) place.normal = -place.normal;
-        if (surfaces_[std::size_t(part.material)]) set_frame(part, corner, weights, place);
-        return place;
+    static MeshPoint point_of(const ScreenTriangle& triangle, Vec2 pixel) {
+        const glm::dvec3 weights = triangle.weights_at(pixel);
+        return {triangle.primitive, triangle.first, weights / (weights.x + weights.y + weights.z)};
     }
 
-    Vec2 uv_of(const Primitive& part, std::uint32_t i) const { return {double(part.uvs[2 * i]), double(part.uvs[2 * i + 1])}; }
-
-    // As the shader has it: the mesh's own directions where it brings them and they go with the triangle.
-    void set_frame(const Primitive& part, const std::uint32_t* corner, const glm::dvec3& weights, Place& place) const {
-        const glm::dvec3 p0 = vertex(part.positions, corner[0]), p1 = vertex(part.positions, corner[1]) - p0, p2 = vertex(part.positions, corner[2]) - p0;
-        const Vec2 a = uv_of(part, corner[1]) - uv_of(part, corner[0]), b = uv_of(part, corner[2]) - uv_of(part, corner[0]);
-        const double area = cross(a, b);
-        if (area == 0.0) return;
-        glm::dvec3 u = (p1 * b.y - p2 * a.y) / area, v = (p2 * a.x - p1 * b.x) / area;
-        if (!part.frames.empty()) {
-            glm::dvec3 du(0.0), dv(0.0);
-            for (int k = 0; k < 3; ++k) {
-                du += of_array(part.frames[corner[k]].du) * weights[k];
-                dv += of_array(part.frames[corner[k]].dv) * weights[k];
-            }
-            const double own = glm::dot(place.normal, glm::cross(du, dv)), facing = glm::dot(place.normal, glm::cross(u, v));
-            if (own * facing > 0.05 * facing * facing) u = du, v = dv;
-        }
-        const Vec2 size = surfaces_[std::size_t(part.material)]->pattern().size;
-        const glm::dvec3 n = place.normal, x = u / size.x, y = v / size.y;
-        place.frame = glm::dmat3(x - n * glm::dot(x, n), y - n * glm::dot(y, n), n);
-        place.patterned = std::abs(glm::determinant(place.frame)) > 1e-12 && glm::dot(n, place.to_eye) > 1e-3;
+    glm::dvec3 toward_eye(const glm::dvec3& p) const {
+        return options_.view.camera.orthographic ? -view_.direction : glm::normalize(view_.eye - p);
     }
 
-    glm::dvec3 part_color(const Covered& part, Work& work) const {
-        const Primitive& primitive = asset_.primitives[part.triangle->primitive];
-        const Place place = place_of(*part.triangle, middle_of(work.coverage.plane, part.polygon));
-        if (!place.patterned) return plain_color(primitive, place);
-        const GroovedSurface& surface = *surfaces_[std::size_t(primitive.material)];
-        if (!set_footprint(part, primitive, surface, work)) return plain_color(primitive, place);
-        Setting setting{primitive, surface, glm::inverse(place.frame), {}, {}};
-        setting.slopes = slopes_of(setting.to_pattern, place);
-        setting.areas.tolerance = options_.tolerance;
-        setting.areas.width = std::sqrt(area_of(work.footprint) / area_of(work.coverage.plane, part.polygon));
-        setting.areas.corners = options_.bounces > 0;
-        Level& first = work.levels[0];
-        find_areas(surface, work.footprint, setting.slopes, setting.areas, first.areas, first.shares);
-        ++work.stats.footprints;
+    glm::dvec3 part_color(const Covered& part, double share, Work& work) const {
+        const MeshPoint middle = point_of(*part.triangle, middle_of(work.coverage.plane, part.polygon));
+        const bool turned = glm::determinant(glm::dmat3(part.triangle->weights)) < 0.0;
+        Place place = scene_.place_at(middle, toward_eye(scene_.position(middle)), turned, false);
+        Footprint& footprint = work.beams.levels[0].footprint;
+        if (!set_footprint(part, place, work.coverage, footprint)) {
+            place = Scene::smooth_place(*place.primitive, place.position, place.normal, place.to_eye);
+            if (!set_footprint(part, place, work.coverage, footprint)) return background_;
+        }
+        Path path;
+        path.width = std::sqrt(area_of(footprint) / share);
+        tracer_.find_seen(place, 0, path.width, work.beams);
         double seen = 0.0;
-        for (const Share& share : first.shares) seen += share.seen;
-        const double off = std::abs(seen - 1.0) * area_of(work.coverage.plane, part.polygon);
-        work.stats.worst_sum = std::max(work.stats.worst_sum, off);
-        work.stats.mean_sum += off;
-        return seen > 0.0 ? shares_color(setting, place, 0, work) / seen : background_;
-    }
-
-    // Of a mesh without detail.
-    glm::dvec3 plain_color(const Primitive& primitive, const Place& place) const {
-        glm::dvec3 color = facet_color(paint_of(primitive, nullptr), place.to_eye, place.normal, 1.0);
-        if (options_.bounces > 0) color += soft_surround(paint_of(primitive, nullptr), place.normal, light_, place.to_eye, options_.view.light.ambient);
+        for (const Share& one : work.beams.levels[0].shares) seen += one.seen;
+        if (place.surface) count(std::abs(seen - 1.0) * share, work.stats);
+        const double cut_off = work.beams.cut_off;
+        const glm::dvec3 color = seen > 0.0 ? tracer_.color_of(place, path, work.beams) / seen : background_;
+        work.stats.cut_off += share * (work.beams.cut_off - cut_off);
         return color;
     }
 
-    // Sum over the shares of a level, each as far as it is seen.
-    glm::dvec3 shares_color(const Setting& setting, const Place& place, std::size_t level, Work& work) const {
-        glm::dvec3 sum(0.0);
-        for (std::size_t i = 0; i < work.levels[level].shares.size(); ++i) {
-            const Share share = work.levels[level].shares[i];
-            const glm::dvec3 normal = glm::normalize(glm::transpose(setting.to_pattern) * glm::dvec3(share.normal.x, share.normal.y, share.normal.z));
-            const Paint paint = paint_of(setting.primitive, own_material(setting.surface, share));
-            const double lit = !setting.slopes.lit ? 0.0 : options_.view.shadows ? share.lit / share.seen : 1.0;
-            glm::dvec3 color = facet_color(paint, place.to_eye, normal, lit);
-            if (int(level) < options_.bounces) color += light_by_way(setting, place, share, paint, normal, level, work);
-            // A lamp that a matt facet happens to see in a smooth one would be a spark.
-            sum += (level > 0 ? glm::min(color, glm::dvec3(1.0)) : color) * share.seen;
-        }
-        return sum;
+    static void count(double off, ReferenceStats& stats) {
+        ++stats.footprints;
+        stats.worst_sum = std::max(stats.worst_sum, off);
+        stats.mean_sum += off;
     }
 
-    // What a facet gets from others and, past them, from the surround.
-    glm::dvec3 light_by_way(const Setting& setting, const Place& place, const Share& share, const Paint& paint, const glm::dvec3& normal, std::size_t level,
-                            Work& work) const {
-        Level& own = work.levels[level];
-        own.scattered.clear();
-        options_.scatter(paint, normal, place.to_eye, options_.directions, ++work.seed, own.scattered);
-        own.beam.corners.clear();
-        for (std::uint32_t k = 0; k < share.corners; ++k) own.beam.corners.push_back(own.areas.area.corners[share.first_corner + k]);
-        own.beam.normal = share.normal;
-        glm::dvec3 sum(0.0);
-        for (std::size_t k = 0; k < own.scattered.size(); ++k) {
-            const Scattered way = own.scattered[k];
-            const glm::dvec3 d = setting.to_pattern * way.direction;
-            own.beam.direction = leaned({d.x, d.y, d.z});
-            Level& next = work.levels[level + 1];
-            const double left = find_hits(setting.surface, own.beam, setting.slopes, setting.areas, next.areas, next.shares);
-            glm::dvec3 radiance = surround(way.direction) * left;
-            if (!next.shares.empty()) {
-                Place there = place;
-                there.to_eye = -way.direction;
-                radiance += shares_color(setting, there, level + 1, work);
-            }
-            sum += way.weight * radiance;
-        }
-        return sum;
-    }
-
-    // Level beams are tilted, as low views are.
-    static Vec3 leaned(Vec3 d) {
-        const double least = std::hypot(d.x, d.y) / kMostSlope;
-        if (std::abs(d.z) < least) d.z = d.z < 0.0 ? -least : least;
-        return d;
-    }
-
-    glm::dvec3 surround(const glm::dvec3& direction) const {
-        return options_.surround ? options_.surround(direction) : soft_radiance(direction, options_.view.light.ambient);
-    }
-
-    Slopes slopes_of(const glm::dmat3& to_pattern, const Place& place) const {
-        const glm::dvec3 eye = to_pattern * place.to_eye, lamp = to_pattern * light_;
-        const auto slope = [](const glm::dvec3& away) {
-            const Vec2 s{-away.x / std::max(away.z, 1e-9), -away.y / std::max(away.z, 1e-9)};
-            const double l = length(s);
-            return l > kMostSlope ? s * (kMostSlope / l) : s;
-        };
-        return {slope(eye), slope(lamp), lamp.z > 0.0};
-    }
-
-    bool set_footprint(const Covered& part, const Primitive& primitive, const GroovedSurface& surface, Work& work) const {
+    // The part of the pixel in the plane of the place; false: it has no area there.
+    bool set_footprint(const Covered& part, const Place& place, const CoverageWork& coverage, Footprint& footprint) const {
+        const Primitive& primitive = *place.primitive;
         const std::uint32_t* corner = &primitive.indices[part.triangle->first];
-        const Vec2 size = surface.pattern().size;
-        auto& corners = work.footprint.corners;
-        corners.clear();
-        for (const Vec2* q = work.coverage.plane.begin(part.polygon); q != work.coverage.plane.end(part.polygon); ++q) {
-            const glm::dvec3 weights = part.triangle->weights_at(*q);
-            const double sum = weights.x + weights.y + weights.z;
-            if (!(sum > 0.0)) return false;
-            Vec2 uv{0, 0};
-            for (int k = 0; k < 3; ++k) uv = uv + uv_of(primitive, corner[k]) * (weights[k] / sum);
-            corners.push_back({uv.x * size.x, uv.y * size.y});
+        footprint.corners.clear();
+        for (const Vec2* q = coverage.plane.begin(part.polygon); q != coverage.plane.end(part.polygon); ++q) {
+            const MeshPoint point = point_of(*part.triangle, *q);
+            footprint.corners.push_back(place.surface ? pattern_point(primitive, corner, point, *place.surface) : smooth_point(point, place));
         }
-        const double area = area_of(work.footprint);
-        if (area < 0.0) std::reverse(corners.begin(), corners.end());
+        const double area = area_of(footprint);
+        if (area < 0.0) std::reverse(footprint.corners.begin(), footprint.corners.end());
         return std::abs(area) > 1e-24;
     }
 
-    // Null: the glTF material itself.
-    static const Material* own_material(const GroovedSurface& surface, const Share& share) {
-        if (share.element == kGround) return nullptr;
-        const ResolvedPattern& pattern = surface.pattern();
-        const Material& material = pattern.materials[pattern.styles[pattern.elements[share.element].style].material];
-        return material.overrides ? &material : nullptr;
+    static Vec2 pattern_point(const Primitive& primitive, const std::uint32_t* corner, const MeshPoint& point, const GroovedSurface& surface) {
+        Vec2 uv{0, 0};
+        for (int k = 0; k < 3; ++k) uv = uv + Vec2{double(primitive.uvs[2 * corner[k]]), double(primitive.uvs[2 * corner[k] + 1])} * point.weights[k];
+        return {uv.x * surface.pattern().size.x, uv.y * surface.pattern().size.y};
     }
 
-    Paint paint_of(const Primitive& primitive, const Material* own) const {
-        const MaterialInfo& material = asset_.materials[std::size_t(primitive.material)];
-        Paint paint;
-        const float* color = own ? own->base_color : material.base_color;
-        paint.albedo = {double(color[0]), double(color[1]), double(color[2])};
-        paint.metal = double(own ? own->metallic : material.metallic);
-        paint.rough = double(own ? own->roughness : material.roughness);
-        if (!own) paint.glow = {double(material.emissive[0]), double(material.emissive[1]), double(material.emissive[2])};
-        return paint;
+    Vec2 smooth_point(const MeshPoint& point, const Place& place) const {
+        const Vec3 p = place.pattern_direction(scene_.position(point) - place.position);
+        return {p.x, p.y};
     }
 
-    // A facet's own colour, the lit part and the rest mixed as they are seen.
-    glm::dvec3 facet_color(const Paint& paint, const glm::dvec3& to_eye, const glm::dvec3& normal, double lit) const {
-        const glm::dvec3 lamp = options_.brdf(paint, normal, light_, to_eye) * options_.view.light.strength;
-        if (options_.bounces > 0) return paint.glow + lamp * lit;
-        const glm::dvec3 dark = paint.glow + soft_surround(paint, normal, light_, to_eye, options_.view.light.ambient);
-        return glm::mix(glm::clamp(dark, 0.0, 1.0), glm::clamp(dark + lamp, 0.0, 1.0), lit);
-    }
-
-    const Asset& asset_;
+    const Scene& scene_;
     const ReferenceOptions& options_;
     const View& view_;
     CoverageMap map_;
-    glm::dvec3 light_, background_{0.0};
-    std::vector<std::unique_ptr<GroovedSurface>> surfaces_;  // per material
+    BeamTracer tracer_;
+    glm::dvec3 background_{0.0};
 };
 
 Status check_options(const Asset& asset, const ReferenceOptions& options) {
@@ -285,8 +123,7 @@ Status check_options(const Asset& asset, const ReferenceOptions& options) {
     if (options.bounces < 0 || options.bounces > 8) return Error{ErrorCode::invalid_argument, "bounces of the reference renderer must be 0 to 8"};
     if (options.directions < 1 || options.directions > 1024)
         return Error{ErrorCode::invalid_argument, "directions of the reference renderer must be 1 to 1024"};
-    if (options.view.environment)
-        return Error{ErrorCode::unsupported, "the reference renderer knows no environment yet; the directional light with its soft surround works"};
+    if (options.passes < 2 || options.passes > 32) return Error{ErrorCode::invalid_argument, "passes of the reference renderer must be 2 to 32"};
     return Done{};
 }
 
@@ -302,8 +139,9 @@ RgbaImage ReferencePicture::image() const {
 Result<ReferencePicture> render_reference(const Asset& asset, const ReferenceOptions& options) {
     if (Status status = check_options(asset, options); !status) return status.error();
     const View view = place_camera(asset, options.view);
-    Renderer renderer(asset, options, view);
-    if (Status status = renderer.load(); !status) return status.error();
+    const auto scene = Scene::make(asset);
+    if (!scene) return scene.error();
+    const Renderer renderer(*scene, options, view);
     ReferencePicture picture{options.view.width, options.view.height, {}, {}};
     picture.linear.resize(std::size_t(picture.width) * std::size_t(picture.height) * 3);
     const std::size_t tiles = std::size_t(renderer.map().columns()) * std::size_t(renderer.map().rows());
@@ -313,17 +151,18 @@ Result<ReferencePicture> render_reference(const Asset& asset, const ReferenceOpt
     for_each_piece(tiles, options.threads, [&](std::size_t tile) {
         thread_local Work work;
         work.stats = {};
-        work.levels.resize(std::size_t(options.bounces) + 1);
-        work.levels[0].areas.by_line = work.levels[0].areas.by_area = 0;
+        work.beams.levels.resize(renderer.levels());
+        AreasWork& areas = work.beams.levels[0].areas;
+        areas.by_line = areas.by_area = 0;
         const int x0 = int(tile % std::size_t(renderer.map().columns())) * kTileSide, y0 = int(tile / std::size_t(renderer.map().columns())) * kTileSide;
         for (int y = y0; y < std::min(y0 + kTileSide, picture.height); ++y)
             for (int x = x0; x < std::min(x0 + kTileSide, picture.width); ++x) {
-                work.seed = (std::uint64_t(y) * std::uint64_t(picture.width) + std::uint64_t(x)) << 20;
+                work.beams.seed = (std::uint64_t(y) * std::uint64_t(picture.width) + std::uint64_t(x)) << 20;
                 const glm::dvec3 color = renderer.pixel_color(x, y, work);
                 for (std::size_t c = 0; c < 3; ++c)
                     picture.linear[(std::size_t(y) * std::size_t(picture.width) + std::size_t(x)) * 3 + c] = float(color[int(c)]);
             }
-        work.stats.by_line = work.levels[0].areas.by_line, work.stats.by_area = work.levels[0].areas.by_area;
+        work.stats.by_line = areas.by_line, work.stats.by_area = areas.by_area;
         stats[tile] = work.stats;
         const std::lock_guard lock(told);
         options.progress(double(++done) / double(tiles));
@@ -333,6 +172,7 @@ Result<ReferencePicture> render_reference(const Asset& asset, const ReferenceOpt
         picture.stats.by_line += one.by_line;
         picture.stats.by_area += one.by_area;
         picture.stats.worst_sum = std::max(picture.stats.worst_sum, one.worst_sum);
+        picture.stats.cut_off += one.cut_off / (double(picture.width) * picture.height);
         picture.stats.mean_sum += one.mean_sum / (double(picture.width) * picture.height);
     }
     return picture;

@@ -25,8 +25,10 @@ struct ReferenceOptions {
     // sees of others is, by 1.
     int bounces = 0;     // [0, 8]
     int directions = 8;  // for each facet and way to scatter that is no mirror, [1, 1024]
+    // Of glass: facets that a beam passes or is mirrored by, one after the other. What comes after them looks straight on into the surround.
+    int passes = 6;      // [2, 32]
     Scatter scatter = scatter_metallic_roughness;
-    // Radiance of what surrounds the asset, by direction; none: soft_radiance of the light's ambient strength.
+    // Radiance of what surrounds the asset, by direction; none: view.environment, or else soft_radiance of the light's ambient strength.
     std::function<glm::dvec3(const glm::dvec3&)> surround;
     // Called with the part that is done, from 0 to 1, by one thread at a time.
     std::function<void(double)> progress = [](double) {};
@@ -35,6 +37,7 @@ struct ReferenceOptions {
 struct ReferenceStats {
     long footprints = 0;        // parts of pixels that show a pattern
     long by_line = 0, by_area = 0;  // of these, or of their parts: by a cross-section, by polygons
+    double cut_off = 0.0;       // part of the picture's light that `passes` cut off, the mean over its pixels
     double worst_sum = 0.0, mean_sum = 0.0;  // how far the shares of a pixel's facets were from its own part of the pixel
 };
 

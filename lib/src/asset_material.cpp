@@ -162,6 +162,24 @@ Status read_texture(const ModelData& model, const Json& owner, const char* key, 
     return Done{};
 }
 
+// Values out of the range that the extensions state count as its nearer end.
+void read_glass(const Json& extensions, MaterialInfo& info) {
+    const auto number = [&](const char* extension, const char* key, double fallback) {
+        const Json* object = find_member(extensions, extension);
+        return object == nullptr ? fallback : number_or(*object, key, fallback);
+    };
+    info.transmission = static_cast<float>(std::clamp(number("KHR_materials_transmission", "transmissionFactor", 0.0), 0.0, 1.0));
+    info.ior = static_cast<float>(std::clamp(number("KHR_materials_ior", "ior", 1.5), 1.0, 100.0));
+    info.thickness = static_cast<float>(std::max(number("KHR_materials_volume", "thicknessFactor", 0.0), 0.0));
+    const double distance = number("KHR_materials_volume", "attenuationDistance", 0.0);
+    if (distance > 0.0) info.attenuation_distance = static_cast<float>(distance);
+    const Json* volume = find_member(extensions, "KHR_materials_volume");
+    if (volume == nullptr) return;
+    std::array<double, 3> color{1, 1, 1};
+    read_array(*volume, "attenuationColor", color);
+    for (std::size_t i = 0; i < 3; ++i) info.attenuation_color[i] = static_cast<float>(std::clamp(color[i], 0.0, 1.0));
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const RgbaImage>> PictureCache::decode(std::uint64_t image, const std::string& where) {
@@ -190,6 +208,7 @@ Result<MaterialInfo> read_material(const ModelData& model, std::size_t index) {
             if (color[i].is_number()) info.base_color[i] = color[i].get<float>();
     }
     const Json* extensions = find_member(material, "extensions");
+    if (extensions != nullptr) read_glass(*extensions, info);
     const Json* extension =
         extensions == nullptr ? nullptr : find_member(*extensions, std::string(kPathDetailExtension).c_str());
     if (extension == nullptr) return info;

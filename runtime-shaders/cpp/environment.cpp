@@ -12,81 +12,11 @@
 namespace burin {
 namespace {
 
-using Level = PreparedEnvironment::Level;
+using Level = RadianceLevel;
 using glm::vec2;
 using glm::vec3;
 
 constexpr float kPi = std::numbers::pi_v<float>;
-
-vec3 texel(const Level& level, int x, int y) {
-    const std::size_t at = 3 * (std::size_t(y) * std::size_t(level.width) + std::size_t(x));
-    return {level.texels[at], level.texels[at + 1], level.texels[at + 2]};
-}
-
-void set_texel(Level& level, int x, int y, vec3 value) {
-    const std::size_t at = 3 * (std::size_t(y) * std::size_t(level.width) + std::size_t(x));
-    for (int c = 0; c < 3; ++c) level.texels[at + std::size_t(c)] = value[c];
-}
-
-Level make_level(int width, int height) { return {width, height, std::vector<float>(std::size_t(width) * std::size_t(height) * 3)}; }
-
-// What a texel's middle looks at.
-vec3 direction_of(const Level& level, int x, int y) {
-    const float turn = (2.0f * (float(x) + 0.5f) / float(level.width) - 1.0f) * kPi, fall = (float(y) + 0.5f) / float(level.height) * kPi;
-    return {std::sin(fall) * std::cos(turn), std::cos(fall), std::sin(fall) * std::sin(turn)};
-}
-
-vec3 bilinear(const Level& level, vec3 d) {
-    const float x = (0.5f + std::atan2(d.z, d.x) / (2.0f * kPi)) * float(level.width) - 0.5f;
-    const float y = std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi * float(level.height) - 0.5f;
-    const int column = int(std::floor(x)), row = int(std::floor(y));
-    const float along = x - float(column), down = y - float(row);
-    const int left = (column + level.width) % level.width, right = (column + 1) % level.width;
-    const int above = std::max(row, 0), below = std::min(row + 1, level.height - 1);
-    const vec3 upper = texel(level, left, above) * (1.0f - along) + texel(level, right, above) * along;
-    const vec3 lower = texel(level, left, below) * (1.0f - along) + texel(level, right, below) * along;
-    return upper * (1.0f - down) + lower * down;
-}
-
-// Another size along one side by a triangle filter, as wide as the coarser of the two; the same size changes nothing.
-template <typename Read, typename Write>
-void resample_line(int from, int to, bool wraps, Read read, Write write) {
-    const double scale = double(from) / to, radius = std::max(scale, 1.0);
-    for (int i = 0; i < to; ++i) {
-        const double middle = (i + 0.5) * scale - 0.5;
-        glm::dvec3 sum{0.0};
-        double weights = 0.0;
-        for (int k = int(std::ceil(middle - radius)); k <= int(std::floor(middle + radius)); ++k) {
-            const double weight = 1.0 - std::abs(k - middle) / radius;
-            if (weight <= 0.0) continue;
-            sum += weight * glm::dvec3(read(wraps ? ((k % from) + from) % from : std::clamp(k, 0, from - 1)));
-            weights += weight;
-        }
-        write(i, vec3(sum / weights));
-    }
-}
-
-Level resample(const RadianceMap& map, int width, int height) {
-    const Level source{map.width, map.height, map.texels};
-    Level wide = make_level(width, map.height), level = make_level(width, height);
-    for (int y = 0; y < map.height; ++y)
-        resample_line(map.width, width, true, [&](int x) { return texel(source, x, y); }, [&](int x, vec3 v) { set_texel(wide, x, y, v); });
-    for (int x = 0; x < width; ++x)
-        resample_line(map.height, height, false, [&](int y) { return texel(wide, x, y); }, [&](int y, vec3 v) { set_texel(level, x, y, v); });
-    return level;
-}
-
-// Means of two by two texels, each as large as the part of the sphere that it covers.
-Level halve(const Level& fine) {
-    Level coarse = make_level(fine.width / 2, fine.height / 2);
-    for (int y = 0; y < coarse.height; ++y) {
-        const float upper = std::sin((2.0f * float(y) + 0.5f) / float(fine.height) * kPi), lower = std::sin((2.0f * float(y) + 1.5f) / float(fine.height) * kPi);
-        for (int x = 0; x < coarse.width; ++x)
-            set_texel(coarse, x, y, (upper * (texel(fine, 2 * x, 2 * y) + texel(fine, 2 * x + 1, 2 * y)) +
-                                     lower * (texel(fine, 2 * x, 2 * y + 1) + texel(fine, 2 * x + 1, 2 * y + 1))) / (2.0f * (upper + lower)));
-    }
-    return coarse;
-}
 
 // Points that fill the unit square evenly: Hammersley's.
 vec2 even_point(std::uint32_t i, std::uint32_t count) {
@@ -134,28 +64,20 @@ std::vector<LobeSample> lobe_samples(float roughness, const Level& finest) {
     return samples;
 }
 
-vec3 trilinear(const std::vector<Level>& chain, vec3 d, float level) {
-    const float at = std::min(level, float(chain.size() - 1));
-    const int lower = int(at);
-    const float rest = at - float(lower);
-    const vec3 fine = bilinear(chain[std::size_t(lower)], d);
-    return rest > 0.0f ? fine * (1.0f - rest) + bilinear(chain[std::size_t(lower + 1)], d) * rest : fine;
-}
-
 Level blur(const std::vector<Level>& chain, const Level& size, float roughness) {
-    Level level = make_level(size.width, size.height);
+    Level level = RadianceLevel::of(size.width, size.height);
     const std::vector<LobeSample> samples = lobe_samples(roughness, chain[0]);
     for (int y = 0; y < level.height; ++y)
         for (int x = 0; x < level.width; ++x) {
-            const vec3 n = direction_of(level, x, y);
+            const vec3 n = level.direction(x, y);
             const vec3 side = glm::normalize(glm::cross(std::abs(n.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0), n)), other = glm::cross(n, side);
             vec3 sum{0.0f};
             float weights = 0.0f;
             for (const LobeSample& s : samples) {
-                sum += s.weight * trilinear(chain, side * s.light.x + other * s.light.y + n * s.light.z, s.level);
+                sum += s.weight * look_up(chain, side * s.light.x + other * s.light.y + n * s.light.z, s.level);
                 weights += s.weight;
             }
-            set_texel(level, x, y, sum / weights);
+            level.set(x, y, sum / weights);
         }
     return level;
 }
@@ -177,8 +99,8 @@ std::array<std::array<float, 3>, 9> irradiance_of(const Level& level) {
     for (int y = 0; y < level.height; ++y) {
         const double part = std::sin((y + 0.5) / level.height * std::numbers::pi);
         for (int x = 0; x < level.width; ++x) {
-            const auto basis = harmonics(glm::dvec3(direction_of(level, x, y)));
-            for (std::size_t k = 0; k < 9; ++k) sums[k] += glm::dvec3(texel(level, x, y)) * (basis[k] * part);
+            const auto basis = harmonics(glm::dvec3(level.direction(x, y)));
+            for (std::size_t k = 0; k < 9; ++k) sums[k] += glm::dvec3(level.texel(x, y)) * (basis[k] * part);
             sphere += part;
         }
     }
@@ -187,8 +109,6 @@ std::array<std::array<float, 3>, 9> irradiance_of(const Level& level) {
         for (int c = 0; c < 3; ++c) terms[k][std::size_t(c)] = float(sums[k][c] * harmonic_weights()[k] * 4.0 * std::numbers::pi / sphere);
     return terms;
 }
-
-float smith(float cosine, float a2) { return 2.0f * cosine / (cosine + std::sqrt(a2 + (1.0f - a2) * cosine * cosine)); }
 
 // Mean over the facets that GGX distributes, as seen from a cosine.
 vec2 mirrored_part(float cosine, float roughness) {
@@ -224,9 +144,8 @@ ReflectanceTable make_table() {
 }  // namespace
 
 PreparedEnvironment prepare_environment(const RadianceMap& map) {
-    const int width = int(std::clamp(std::bit_ceil(unsigned(map.width)), 32u, unsigned(PreparedEnvironment::kMostColumns)));
-    std::vector<Level> chain{resample(map, width, width / 2)};
-    while (chain.back().width > 4) chain.push_back(halve(chain.back()));
+    const int width = radiance_columns(map);
+    const std::vector<Level> chain = radiance_levels(map, width);
     PreparedEnvironment environment;
     environment.levels.push_back(chain[0]);
     const int count = int(std::bit_width(unsigned(width))) - 5;  // behind level 0
@@ -237,19 +156,19 @@ PreparedEnvironment prepare_environment(const RadianceMap& map) {
 
 RadianceMap neutral_environment() {
     RadianceMap map{256, 128, {}};
-    Level level = make_level(map.width, map.height);
+    Level level = RadianceLevel::of(map.width, map.height);
     const auto lamp = [](vec3 d, vec3 toward, float inner, float outer) {
         const float at = std::clamp((glm::dot(d, glm::normalize(toward)) - outer) / (inner - outer), 0.0f, 1.0f);
         return at * at * (3.0f - 2.0f * at);
     };
     for (int y = 0; y < map.height; ++y)
         for (int x = 0; x < map.width; ++x) {
-            const vec3 d = direction_of(level, x, y);
+            const vec3 d = level.direction(x, y);
             const float rise = std::clamp(0.5f + 2.5f * d.y, 0.0f, 1.0f);
             float value = 0.05f + 0.12f * rise;
             value += 0.5f * lamp(d, {0.0f, 1.0f, 0.0f}, 0.95f, 0.8f);
             value += 0.7f * lamp(d, {-1.0f, 0.45f, 0.5f}, 0.97f, 0.9f) + 0.4f * lamp(d, {1.0f, 0.35f, -0.3f}, 0.97f, 0.9f);
-            set_texel(level, x, y, vec3(value));
+            level.set(x, y, vec3(value));
         }
     map.texels = std::move(level.texels);
     return map;

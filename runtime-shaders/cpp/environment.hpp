@@ -13,19 +13,14 @@
 #include <array>
 #include <vector>
 
-#include <burin/radiance.hpp>
+#include "cpp/radiance_levels.hpp"
 
 namespace burin {
 
 struct PreparedEnvironment {
-    static constexpr int kMostColumns = 2048;
     // Level 0 is the picture, its sides powers of two; each further level has half the sides. Level k is blurred as by
     // roughness k / (levels - 1); the last is 16 x 8.
-    struct Level {
-        int width = 0, height = 0;
-        std::vector<float> texels;  // red, green and blue, rows from straight up
-    };
-    std::vector<Level> levels;
+    std::vector<RadianceLevel> levels;
     // Irradiance over pi, as terms of 1, y, z, x, x y, y z, 3 z z - 1, x z, x x - y y of the normal; never asked below 0.
     std::array<std::array<float, 3>, 9> irradiance{};
 };

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -161,6 +162,12 @@ struct MaterialInfo {
     float metallic = 1.0f;
     float roughness = 1.0f;
     float emissive[3] = {0, 0, 0};  // linear
+    // Glass: the factors of KHR_materials_transmission, KHR_materials_ior and KHR_materials_volume; their textures are not read.
+    float transmission = 0.0f;                 // part of what is neither metal nor mirrored that goes through, [0, 1]
+    float ior = 1.5f;                          // index of refraction, at least 1
+    float thickness = 0.0f;                    // metres of the mesh; 0: a thin sheet, else the mesh bounds a body
+    float attenuation_color[3] = {1, 1, 1};    // what is left of white after attenuation_distance metres in the body
+    float attenuation_distance = HUGE_VALF;
     // Textures, where pictures were asked for. Colours of the first and the last are sRGB; roughness is the second's green,
     // metallic its blue, occlusion the third's red. Occlusion that burin baked from the pattern, for viewers that do not draw it,
     // is left out.
