@@ -85,6 +85,17 @@ class Finder {
     bool within_;
 };
 
+// Edges as short as rounding bound nothing. False: nothing is left that has an area.
+bool drop_short_edges(Footprint& footprint, double thin) {
+    const double least = 64.0 * thin;
+    std::vector<Vec2> kept;
+    for (const Vec2 p : footprint.corners)
+        if (kept.empty() || (length(p - kept.back()) > least && length(p - kept.front()) > least)) kept.push_back(p);
+    footprint.corners.swap(kept);
+    const Box box = box_of(footprint);
+    return footprint.corners.size() > 2 && area_of(footprint) > least * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
 }  // namespace
 
 void find_areas(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const AreasOptions& options, AreasWork& work,
@@ -129,6 +140,8 @@ double find_hits(const GroovedSurface& surface, const Beam& beam, const Slopes& 
     gather_grooves(surface, plan_of, request.slopes, start, work.gathered);
     if (start.rising ? start.low >= work.gathered.highest : start.high <= work.gathered.lowest) return 1.0;
     sweep_grooves(surface, work.gathered, {tolerance_in(work.gathered.region, options, request.whole)}, work.geometry);
+    if (!drop_short_edges(shown, work.geometry.points.thin)) return 1.0;
+    request.whole = area_of(shown);
     Carver carver(work.geometry, surface, work.gathered, work.carving);
     request.footprint = &shown;
     request.normal = beam.normal;

@@ -17,6 +17,8 @@ namespace burin::reference {
 namespace {
 
 constexpr double kItems = 64.0;   // that a whole pixel's light is worth: what brings less is followed by lot
+constexpr double kWholeBeam = 8.0;   // items for which a beam starts from all that is seen of a facet
+constexpr double kLeastBeam = 0.15;  // of its width
 constexpr double kAside = 1e-3;   // least cosine under which a facet is taken to be seen
 
 // Level beams are tilted, as low views are.
@@ -55,6 +57,21 @@ glm::dvec3 faced(const glm::dvec3& normal, const Place& place) {
     return cosine >= kAside ? normal : glm::normalize(normal + place.to_eye * (side * (kAside - cosine)));
 }
 
+// A point of a convex polygon, by a triangle of its fan.
+Vec3 point_of(const Vec3* corners, std::uint32_t count, const Spread& spread) {
+    const auto area = [&](std::uint32_t i) {
+        const Vec3 n = cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+        return std::sqrt(dot(n, n));
+    };
+    double whole = 0.0;
+    for (std::uint32_t i = 1; i + 1 < count; ++i) whole += area(i);
+    std::uint32_t i = 1;
+    double at = spread.x(0) * whole;
+    for (; i + 2 < count && at > area(i); ++i) at -= area(i);
+    const double along = std::sqrt(Spread::fraction(spread.x(1))), across = spread.y(0);
+    return corners[0] + (corners[i] + (corners[i + 1] - corners[i]) * across - corners[0]) * along;
+}
+
 // All of a footprint.
 Share smooth_share(const Place& place, const Footprint& footprint, std::vector<Vec3>& corners) {
     Share share;
@@ -67,6 +84,23 @@ Share smooth_share(const Place& place, const Footprint& footprint, std::vector<V
     for (const Vec2 p : footprint.corners) corners.push_back({p.x, p.y, place.at.z});
     share.corners = std::uint32_t(corners.size());
     return share;
+}
+
+// Makes the part of the facet that is seen the start of a beam; one that few items stand for starts from a part of it, chosen by lot. Its
+// middle.
+Vec3 set_beam(Level& level, const Share& share, double items, std::uint64_t seed) {
+    const Vec3* corners = level.areas.area.corners.data() + share.first_corner;
+    const double part = std::clamp(std::sqrt(items / kWholeBeam), kLeastBeam, 1.0);
+    Vec3 about = share.place;
+    if (part < 1.0) about = point_of(corners, share.corners, Spread(seed));
+    level.beam.normal = share.normal;
+    level.beam.corners.clear();
+    Vec3 middle{};
+    for (std::uint32_t k = 0; k < share.corners; ++k) {
+        level.beam.corners.push_back(about + (corners[k] - about) * part);
+        middle = middle + level.beam.corners[k] * (1.0 / share.corners);
+    }
+    return middle;
 }
 
 }  // namespace
@@ -154,15 +188,14 @@ glm::dvec3 BeamTracer::light_by_way(const Place& place, const Share& share, cons
     if (path.level > 0)
         thin_out(own.scattered, path.weight * share.seen * whole * kItems, Spread(++work.seed).turn_x, [](const Scattered& s) { return brightness(s.weight); },
                  [](Scattered& s, double by) { s.weight *= by; });
-    own.beam.corners.clear();
-    for (std::uint32_t k = 0; k < share.corners; ++k) own.beam.corners.push_back(own.areas.area.corners[share.first_corner + k]);
-    own.beam.normal = share.normal;
     glm::dvec3 sum(0.0);
     for (std::size_t k = 0; k < own.scattered.size(); ++k) {
         const Scattered way = own.scattered[k];
+        Path next{path.level + 1, path.weight * share.seen * brightness(way.weight), path.width, path.solid + way.solid, path.through, {}};
+        const Vec3 start = set_beam(own, share, next.weight * kItems, ++work.seed);
         own.beam.within = glm::dot(way.direction, normal) < 0.0;
-        const Path next{path.level + 1, path.weight * share.seen * brightness(way.weight), path.width, path.solid + way.solid,
-                        path.through || own.beam.within != place.within, place.world(share.place)};
+        next.through = path.through || own.beam.within != place.within;
+        next.from = place.world(start);
         sum += way.weight * light_along(place, next, way.direction, work);
     }
     return sum;
@@ -214,7 +247,9 @@ glm::dvec3 BeamTracer::light_from_beyond(const Place& place, const Path& path, c
     find_seen(there, path.level, path.width, work);
     double seen = 0.0;
     for (const Share& share : own.shares) seen += share.seen;
-    return seen > 0.0 ? color_of(there, path, work) / seen : light_of_surround(path, direction);
+    if (!(seen > 0.0)) return light_of_surround(path, direction);
+    for (Share& share : own.shares) share.seen /= seen, share.lit /= seen;
+    return color_of(there, path, work);
 }
 
 // Without an environment glass shows the picture's background, as other viewers do, and other things the soft surround.

@@ -21,7 +21,7 @@ namespace burin::reference {
 // How a beam has come.
 struct Path {
     std::size_t level = 0;   // facets before
-    double weight = 1.0;     // about what part of the footprint's light comes this way
+    double weight = 1.0;     // about what part of the pixel's light comes this way
     double width = 0.0;      // of a pixel, metres
     double solid = 0.0;      // steradians that it stands for
     bool through = false;    // glass

@@ -66,15 +66,13 @@ class Renderer {
             if (!set_footprint(part, place, work.coverage, footprint)) return background_;
         }
         Path path;
+        path.weight = share;
         path.width = std::sqrt(area_of(footprint) / share);
         tracer_.find_seen(place, 0, path.width, work.beams);
         double seen = 0.0;
         for (const Share& one : work.beams.levels[0].shares) seen += one.seen;
         if (place.surface) count(std::abs(seen - 1.0) * share, work.stats);
-        const double cut_off = work.beams.cut_off;
-        const glm::dvec3 color = seen > 0.0 ? tracer_.color_of(place, path, work.beams) / seen : background_;
-        work.stats.cut_off += share * (work.beams.cut_off - cut_off);
-        return color;
+        return seen > 0.0 ? tracer_.color_of(place, path, work.beams) / seen : background_;
     }
 
     static void count(double off, ReferenceStats& stats) {
@@ -154,6 +152,7 @@ Result<ReferencePicture> render_reference(const Asset& asset, const ReferenceOpt
         work.beams.levels.resize(renderer.levels());
         AreasWork& areas = work.beams.levels[0].areas;
         areas.by_line = areas.by_area = 0;
+        work.beams.cut_off = 0.0;
         const int x0 = int(tile % std::size_t(renderer.map().columns())) * kTileSide, y0 = int(tile / std::size_t(renderer.map().columns())) * kTileSide;
         for (int y = y0; y < std::min(y0 + kTileSide, picture.height); ++y)
             for (int x = x0; x < std::min(x0 + kTileSide, picture.width); ++x) {
@@ -162,6 +161,7 @@ Result<ReferencePicture> render_reference(const Asset& asset, const ReferenceOpt
                 for (std::size_t c = 0; c < 3; ++c)
                     picture.linear[(std::size_t(y) * std::size_t(picture.width) + std::size_t(x)) * 3 + c] = float(color[int(c)]);
             }
+        work.stats.cut_off = work.beams.cut_off;
         work.stats.by_line = areas.by_line, work.stats.by_area = areas.by_area;
         stats[tile] = work.stats;
         const std::lock_guard lock(told);

@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include <cpp/environment.hpp>
 
@@ -40,15 +41,15 @@ glm::dvec3 visible_normal(const glm::dvec3& eye, double alpha, double x, double 
 
 double smith_root(double cosine, double a2) { return std::sqrt(cosine * cosine * (1.0 - a2) + a2); }
 
-// Of even light, what the surface mirrors once if its facets mirror all.
-double mirrored_once(double cosine, double rough) {
+// Of even light, what the surface mirrors once: as a part of f0, and besides.
+glm::dvec2 mirrored_once(double cosine, double rough) {
     constexpr int kLast = ReflectanceTable::kSide - 1;
     const auto& terms = reflectance_table().terms;
     const double x = std::clamp(cosine, 0.0, 1.0) * kLast, y = std::clamp(rough, 0.0, 1.0) * kLast;
     const int i = std::min(int(x), kLast - 1), j = std::min(int(y), kLast - 1);
     const auto at = [&](int column, int row) {
         const std::size_t k = 2 * (std::size_t(row) * std::size_t(kLast + 1) + std::size_t(column));
-        return double(terms[k]) + double(terms[k + 1]);
+        return glm::dvec2(terms[k], terms[k + 1]);
     };
     return glm::mix(glm::mix(at(i, j), at(i + 1, j), x - i), glm::mix(at(i, j + 1), at(i + 1, j + 1), x - i), y - j);
 }
@@ -65,6 +66,14 @@ struct Look {
     glm::dvec3 straight() const {
         const double part = (paint.index - 1.0) / (paint.index + 1.0);
         return glm::mix(glm::dvec3(part * part), paint.albedo, paint.metal);
+    }
+    double cosine() const { return std::max(glm::dot(normal, to_eye), 1e-3); }
+    // The part of even light: once, and what facets mirror again.
+    glm::dvec3 mirrored() const {
+        if (paint.is_glass()) return fresnel(cosine());
+        const glm::dvec2 once = mirrored_once(cosine(), paint.rough);
+        const glm::dvec3 again = straight() * (1.0 / std::max(once.x + once.y, 1e-3) - 1.0);
+        return glm::min((straight() * once.x + once.y) * (1.0 + again), 1.0);
     }
     // At facets that the eye sees under this cosine.
     glm::dvec3 fresnel(double cosine) const {
@@ -87,11 +96,20 @@ void scatter_at(const Look& look, const glm::dvec3& half, double part, double ke
     if (through != glm::dvec3(0.0) && weight != glm::dvec3(0.0)) out.push_back({glm::normalize(through), weight, solid * turn * turn});
 }
 
+// Makes those from `first` on bring together what is known of all of them, so that a few never bring more.
+void scale_to(const glm::dvec3& whole, std::size_t first, std::vector<Scattered>& out) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t k = first; k < out.size(); ++k) sum += out[k].weight;
+    for (std::size_t k = first; k < out.size(); ++k)
+        for (int c = 0; c < 3; ++c) out[k].weight[c] *= whole[c] / std::max(sum[c], 1e-12);
+}
+
 void scatter_rough(const Look& look, double alpha, std::vector<Scattered>& out) {
     const Spread spread(look.seed + 1);
     const glm::dmat3 frame = frame_about(look.normal);
     const glm::dvec3 eye = look.to_eye * frame;
-    const double a2 = alpha * alpha, nv = std::max(eye.z, 1e-3), again = 1.0 / std::max(mirrored_once(nv, look.paint.rough), 1e-3) - 1.0;
+    const double a2 = alpha * alpha, nv = look.cosine();
+    const std::size_t before = out.size();
     for (int i = 0; i < look.count; ++i) {
         glm::dvec3 half = visible_normal({eye.x, eye.y, nv}, alpha, spread.x(i), spread.y(i));
         const double vh = std::max(glm::dot(glm::dvec3(eye.x, eye.y, nv), half), 0.0), nl = 2.0 * vh * half.z - nv;
@@ -106,11 +124,9 @@ void scatter_rough(const Look& look, double alpha, std::vector<Scattered>& out) 
         // Smith's shadowing of both over that of the eye, which the choice of facets has.
         const double shown = nl * (nv + eye_root) / (nl * eye_root + nv * light_root);
         const double around = half.z * half.z * (a2 - 1.0) + 1.0, density = a2 / (kPi * around * around) / (2.0 * (nv + eye_root));
-        const glm::dvec3 more = 1.0 + look.straight() * again;
-        const std::size_t before = out.size();
         scatter_at(look, frame * half, 1.0 / look.count, shown, 1.0 / (look.count * density), out);
-        for (std::size_t k = before; k < out.size(); ++k) out[k].weight = out[k].weight * more;
     }
+    if (!look.paint.is_glass()) scale_to(look.mirrored(), before, out);
 }
 
 }  // namespace
@@ -137,9 +153,8 @@ void scatter_metallic_roughness(const Paint& paint, const glm::dvec3& normal, co
                                 std::vector<Scattered>& out) {
     const bool within = glm::dot(normal, to_eye) < 0.0;
     const Look look{paint, within ? -normal : normal, to_eye, within, count, seed};
-    const double cosine = std::max(glm::dot(look.normal, to_eye), 1e-3);
     const double matt = (1.0 - paint.metal) * (1.0 - (paint.is_glass() ? paint.transmission : 0.0));
-    if (matt > 0.0) scatter_matt(look.normal, paint.albedo * matt * (1.0 - look.fresnel(cosine)), count, seed, out);
+    if (matt > 0.0) scatter_matt(look.normal, paint.albedo * matt * (1.0 - look.mirrored()), count, seed, out);
     const double alpha = paint.rough * paint.rough;
     if (alpha > kMirror) return scatter_rough(look, alpha, out);
     scatter_at(look, look.normal, 1.0, 1.0, 0.0, out);
