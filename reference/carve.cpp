@@ -1,13 +1,14 @@
 #include "carve.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "evaluate_prepare.hpp"
 
 namespace burin::reference {
 
-constexpr std::size_t kBins = 64;
+constexpr int kMostCells = 64;  // of the region, along a side
 
 Carver::Carver(LocalGeometry& geometry, const GroovedSurface& surface, const Gathered& gathered, Carving& work)
     : geometry_(geometry), surface_(surface), gathered_(gathered), work_(work) {
@@ -28,34 +29,51 @@ Carver::Carver(LocalGeometry& geometry, const GroovedSurface& surface, const Gat
     sort_brushes();
 }
 
-std::size_t Carver::bin_of(double x, double y) const {
+// Cells that the box meets; those at the region's border reach on without end.
+template <typename Use>
+void Carver::for_each_cell(const Box& box, const Use& use) const {
     const Box& all = gathered_.region.box;
-    const double share = along_x_ ? (x - all.low.x) / (all.high.x - all.low.x) : (y - all.low.y) / (all.high.y - all.low.y);
-    return static_cast<std::size_t>(std::clamp(share * double(kBins), 0.0, double(kBins - 1)));
+    const auto cell = [](double at, double low, double high, int count) {
+        return static_cast<int>(std::clamp((at - low) / (high - low) * count, 0.0, double(count - 1)));
+    };
+    const int left = cell(box.low.x, all.low.x, all.high.x, columns_), right = cell(box.high.x, all.low.x, all.high.x, columns_);
+    const int lower = cell(box.low.y, all.low.y, all.high.y, rows_), upper = cell(box.high.y, all.low.y, all.high.y, rows_);
+    for (int row = lower; row <= upper; ++row)
+        for (int column = left; column <= right; ++column) use(static_cast<std::size_t>(row * columns_ + column));
 }
 
+// Into about as many cells as there are brushes.
 void Carver::sort_brushes() {
-    const Box& all = gathered_.region.box;
-    along_x_ = all.high.x - all.low.x > all.high.y - all.low.y;
-    work_.bins.resize(kBins);
-    for (auto& bin : work_.bins) bin.clear();
+    const Vec2 extent = gathered_.region.box.high - gathered_.region.box.low;
+    const double count = double(geometry_.brushes.size()), longer = std::max(extent.x, extent.y), shorter = std::max(std::min(extent.x, extent.y), 1e-3 * longer);
+    const int along = static_cast<int>(std::clamp(std::sqrt(count * longer / shorter), 1.0, double(kMostCells)));
+    const int across = static_cast<int>(std::clamp(std::sqrt(count * shorter / longer), 1.0, double(kMostCells)));
+    columns_ = extent.x > extent.y ? along : across;
+    rows_ = extent.x > extent.y ? across : along;
+    auto& first = work_.first_binned;
+    first.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+    for (const Brush& brush : geometry_.brushes) for_each_cell(brush.box, [&](std::size_t cell) { ++first[cell]; });
+    std::uint32_t sum = 0;
+    for (std::uint32_t& entry : first) sum += entry, entry = sum;
+    work_.binned.resize(sum);
+    for (std::uint32_t b = 0; b < geometry_.brushes.size(); ++b)
+        for_each_cell(geometry_.brushes[b].box, [&](std::size_t cell) { work_.binned[--first[cell]] = b; });
     work_.asked.assign(geometry_.brushes.size(), 0);
     work_.turn = 0;
-    for (std::uint32_t b = 0; b < geometry_.brushes.size(); ++b) {
-        const Box& box = geometry_.brushes[b].box;
-        for (std::size_t i = bin_of(box.low.x, box.low.y); i <= bin_of(box.high.x, box.high.y); ++i) work_.bins[i].push_back(b);
-    }
 }
 
-void Carver::find_candidates(const Box& box) {
+void Carver::find_candidates(const Face& face) {
     ++work_.turn;
     work_.candidates.clear();
-    for (std::size_t i = bin_of(box.low.x, box.low.y); i <= bin_of(box.high.x, box.high.y); ++i)
-        for (const std::uint32_t b : work_.bins[i]) {
-            if (work_.asked[b] == work_.turn || !meet(geometry_.brushes[b].box, box)) continue;
+    for_each_cell(face.box, [&](std::size_t cell) {
+        for (std::uint32_t i = work_.first_binned[cell]; i < work_.first_binned[cell + 1]; ++i) {
+            const std::uint32_t b = work_.binned[i];
+            const Brush& brush = geometry_.brushes[b];
+            if (work_.asked[b] == work_.turn || !meet(brush.box, face.box)) continue;
             work_.asked[b] = work_.turn;
-            work_.candidates.push_back(b);
+            if (!spares(face, brush)) work_.candidates.push_back(b);
         }
+    });
     std::sort(work_.candidates.begin(), work_.candidates.end());
 }
 
@@ -94,7 +112,7 @@ void Carver::carve_ground(Polygon polygon, const Face& face, const std::vector<s
 
 void Carver::carve(const Face& face) {
     work_.kept.clear();
-    find_candidates(face.box);
+    find_candidates(face);
     if (face.kind == FaceKind::ground && !face.wall && work_.candidates.size() > 24) return carve_ground(face.polygon, face, work_.candidates, 0);
     if (face.kind == FaceKind::ground)
         keep(face.polygon);
@@ -105,7 +123,7 @@ void Carver::carve(const Face& face) {
     for (const std::uint32_t b : work_.candidates) {
         if (work_.kept.empty()) break;
         const Brush& brush = geometry_.brushes[b];
-        if ((face.kind == FaceKind::cut && !brush.cut) || spares(face, brush)) continue;
+        if (face.kind == FaceKind::cut && !brush.cut) continue;
         remove(face, b, tie(face, brush));
     }
     if (face.wall && face.kind != FaceKind::ground) keep_first_wall(face);
@@ -154,7 +172,7 @@ void Carver::keep_solid(const Face& face) {
     for (const std::uint32_t b : work_.candidates) {
         if (work_.solid.empty()) break;
         const Brush& brush = geometry_.brushes[b];
-        if (brush.cut || (brush.instance == face.instance && !face.wall)) continue;
+        if (brush.cut) continue;
         work_.next.clear();
         for (const Part& p : work_.solid) keep(subtract(face, p, b, -geometry_.fine));
         work_.solid.swap(work_.next);

@@ -28,10 +28,10 @@ struct Carving {
     std::vector<HalfSpace> halves;          // of all brushes
     std::vector<std::uint32_t> first_half;  // of each brush, and one past the last
     std::vector<Part> kept, next, solid;
-    // Brushes by where they lie along the longer side of the region.
-    std::vector<std::vector<std::uint32_t>> bins;
+    // Brushes by the cells of the region, row by row, that their boxes meet: a range of `binned` for each.
+    std::vector<std::uint32_t> first_binned, binned;
     std::vector<std::uint32_t> asked;       // of each brush: for which face it was last found
-    std::vector<std::uint32_t> candidates;  // brushes whose boxes meet the face at hand, ascending
+    std::vector<std::uint32_t> candidates;  // brushes whose boxes meet the face at hand and that it does not belong to, ascending
     std::uint32_t turn = 0;
 };
 
@@ -48,8 +48,9 @@ class Carver {
 
   private:
     void sort_brushes();
-    std::size_t bin_of(double x, double y) const;
-    void find_candidates(const Box& box);
+    template <typename Use>
+    void for_each_cell(const Box& box, const Use& use) const;
+    void find_candidates(const Face& face);
     void carve(const Face& face);
     void carve_ground(Polygon polygon, const Face& face, const std::vector<std::uint32_t>& candidates, int depth);
     void keep_first_wall(const Face& face);
@@ -68,7 +69,7 @@ class Carver {
     const GroovedSurface& surface_;
     const Gathered& gathered_;
     Carving& work_;
-    bool along_x_ = true;
+    int columns_ = 1, rows_ = 1;  // of cells
 };
 
 }  // namespace burin::reference
