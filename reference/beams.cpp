@@ -143,28 +143,37 @@ void BeamTracer::find_seen(const Place& place, std::size_t level, double width, 
 
 glm::dvec3 BeamTracer::color_of(const Place& place, const Path& path, BeamWork& work) const {
     std::vector<Share>& shares = work.levels[path.level].shares;
-    const bool lamp = !place.surface || (place.pattern_direction(light_).z > 0.0);
-    thin_out(shares, path.weight * kItems, Spread(++work.seed).turn_x, [](const Share& s) { return s.seen; },
-             [](Share& s, double by) { s.seen *= by, s.lit *= by; });
     glm::dvec3 sum(0.0);
+    for (const Share& share : shares) sum += own_light(place, share, path) * share.seen;
+    if (most_opaque_ == 0 && !(scene_.material(place).transmission > 0.0f)) return sum;
+    thin_out(shares, path.weight * kItems, Spread(++work.seed).turn_x, [](const Share& s) { return s.seen; }, [](Share& s, double by) { s.seen *= by; });
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const Share share = shares[i];
-        const glm::dvec3 normal = faced(place.world_normal(share.normal), place);
-        const Paint paint = scene_.paint_of(place, share);
-        const double lit = place.within || !lamp ? 0.0 : options_.view.shadows ? share.lit / share.seen : 1.0;
-        glm::dvec3 color = facet_color(place, paint, normal, lit);
-        // A lamp that a matt facet happens to see in a smooth one would be a spark.
-        if (path.level > 0) color = glm::min(color, glm::dvec3(1.0));
-        if (path.level < most_for(paint)) {
-            color += light_by_way(place, share, paint, normal, path, work);
-        } else if (paint.is_glass()) {
-            color += light_of_surround(path, -place.to_eye);
-            work.cut_off += path.weight * share.seen;
-        }
-        if (place.within) color *= kept_within(place, glm::distance(path.from, place.world(share.place)));
-        sum += color * share.seen;
+        sum += followed_light(place, share, path, work) * share.seen;
     }
     return sum;
+}
+
+// Of the lamp, and what shines by itself.
+glm::dvec3 BeamTracer::own_light(const Place& place, const Share& share, const Path& path) const {
+    const bool lamp = !place.within && (!place.surface || place.pattern_direction(light_).z > 0.0);
+    const double lit = !lamp ? 0.0 : options_.view.shadows ? share.lit / share.seen : 1.0;
+    const glm::dvec3 color = facet_color(place, scene_.paint_of(place, share), faced(place.world_normal(share.normal), place), lit);
+    if (path.level == 0) return color;
+    // A lamp that a matt facet happens to see in a smooth one would be a spark.
+    return glm::min(color, glm::dvec3(1.0)) * kept_within(place, share, path);
+}
+
+glm::dvec3 BeamTracer::followed_light(const Place& place, const Share& share, const Path& path, BeamWork& work) const {
+    const Paint paint = scene_.paint_of(place, share);
+    glm::dvec3 color(0.0);
+    if (path.level < most_for(paint)) {
+        color = light_by_way(place, share, paint, faced(place.world_normal(share.normal), place), path, work);
+    } else if (paint.is_glass()) {
+        color = light_of_surround(path, -place.to_eye);
+        work.cut_off += path.weight * share.seen;
+    }
+    return color * kept_within(place, share, path);
 }
 
 // A facet's own colour, the lit part and the rest mixed as they are seen.
@@ -259,11 +268,11 @@ glm::dvec3 BeamTracer::light_of_surround(const Path& path, const glm::dvec3& dir
     return path.through ? background_ : soft_radiance(direction, options_.view.light.ambient);
 }
 
-// What so long a way through glass leaves of light.
-glm::dvec3 BeamTracer::kept_within(const Place& place, double metres) const {
+// What the way through glass to where the share is seen from leaves of light.
+glm::dvec3 BeamTracer::kept_within(const Place& place, const Share& share, const Path& path) const {
     const MaterialInfo& material = scene_.material(place);
-    if (!(material.thickness > 0.0f) || std::isinf(material.attenuation_distance)) return glm::dvec3(1.0);
-    const double part = metres / double(material.attenuation_distance * place.primitive->scale);
+    if (!place.within || !(material.thickness > 0.0f) || std::isinf(material.attenuation_distance)) return glm::dvec3(1.0);
+    const double part = glm::distance(path.from, place.world(share.place)) / double(material.attenuation_distance * place.primitive->scale);
     glm::dvec3 kept;
     for (int c = 0; c < 3; ++c) kept[c] = std::pow(double(material.attenuation_color[c]), part);
     return kept;

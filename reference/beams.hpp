@@ -61,12 +61,14 @@ class BeamTracer {
     std::size_t most_for(const Paint& paint) const;
     AreasOptions areas_of(const Place& place, double width) const;
     Slopes slopes_of(const Place& place) const;
+    glm::dvec3 own_light(const Place& place, const Share& share, const Path& path) const;
+    glm::dvec3 followed_light(const Place& place, const Share& share, const Path& path, BeamWork& work) const;
     glm::dvec3 facet_color(const Place& place, const Paint& paint, const glm::dvec3& normal, double lit) const;
     glm::dvec3 light_by_way(const Place& place, const Share& share, const Paint& paint, const glm::dvec3& normal, const Path& path, BeamWork& work) const;
     glm::dvec3 light_along(const Place& place, const Path& path, const glm::dvec3& direction, BeamWork& work) const;
     glm::dvec3 light_from_beyond(const Place& place, const Path& path, const glm::dvec3& direction, BeamWork& work) const;
     glm::dvec3 light_of_surround(const Path& path, const glm::dvec3& direction) const;
-    glm::dvec3 kept_within(const Place& place, double metres) const;
+    glm::dvec3 kept_within(const Place& place, const Share& share, const Path& path) const;
 
     const Scene& scene_;
     const ReferenceOptions& options_;

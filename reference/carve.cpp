@@ -1,7 +1,6 @@
 #include "carve.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "evaluate_prepare.hpp"
@@ -42,20 +41,24 @@ void Carver::for_each_cell(const Box& box, const Use& use) const {
         for (int column = left; column <= right; ++column) use(static_cast<std::size_t>(row * columns_ + column));
 }
 
-// Into about as many cells as there are brushes.
+// Into cells as large as a brush is in the mean, where that makes several.
 void Carver::sort_brushes() {
-    const Vec2 extent = gathered_.region.box.high - gathered_.region.box.low;
-    const double count = double(geometry_.brushes.size()), longer = std::max(extent.x, extent.y), shorter = std::max(std::min(extent.x, extent.y), 1e-3 * longer);
-    const int along = static_cast<int>(std::clamp(std::sqrt(count * longer / shorter), 1.0, double(kMostCells)));
-    const int across = static_cast<int>(std::clamp(std::sqrt(count * shorter / longer), 1.0, double(kMostCells)));
-    columns_ = extent.x > extent.y ? along : across;
-    rows_ = extent.x > extent.y ? across : along;
+    const Box& all = gathered_.region.box;
+    Vec2 sum_of_sides{0, 0};
+    for (const Brush& brush : geometry_.brushes)
+        sum_of_sides = sum_of_sides + Vec2{std::min(brush.box.high.x, all.high.x) - std::max(brush.box.low.x, all.low.x),
+                                           std::min(brush.box.high.y, all.high.y) - std::max(brush.box.low.y, all.low.y)};
+    const auto cells = [&](double side, double sum) {
+        return static_cast<int>(std::clamp(side * double(geometry_.brushes.size()) / std::max(sum, 1e-300), 1.0, double(kMostCells)));
+    };
+    columns_ = cells(all.high.x - all.low.x, sum_of_sides.x);
+    rows_ = cells(all.high.y - all.low.y, sum_of_sides.y);
     auto& first = work_.first_binned;
     first.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
     for (const Brush& brush : geometry_.brushes) for_each_cell(brush.box, [&](std::size_t cell) { ++first[cell]; });
-    std::uint32_t sum = 0;
-    for (std::uint32_t& entry : first) sum += entry, entry = sum;
-    work_.binned.resize(sum);
+    std::uint32_t listed = 0;
+    for (std::uint32_t& entry : first) listed += entry, entry = listed;
+    work_.binned.resize(listed);
     for (std::uint32_t b = 0; b < geometry_.brushes.size(); ++b)
         for_each_cell(geometry_.brushes[b].box, [&](std::size_t cell) { work_.binned[--first[cell]] = b; });
     work_.asked.assign(geometry_.brushes.size(), 0);
