@@ -177,15 +177,28 @@ void Carver::keep_solid(const Face& face) {
         const Brush& brush = geometry_.brushes[b];
         if (brush.cut) continue;
         work_.next.clear();
-        for (const Part& p : work_.solid) keep(subtract(face, p, b, -geometry_.fine));
+        for (const Part& p : work_.solid) {
+            if (misses(face, p, b, -geometry_.fine))
+                work_.next.push_back(p);
+            else
+                keep(subtract(face, p, b, -geometry_.fine));
+        }
         work_.solid.swap(work_.next);
     }
 }
 
+// Most parts lie apart from the brush: they stay where they are.
 void Carver::remove(const Face& face, std::size_t brush, double grow) {
     work_.next.clear();
-    for (const Part& p : work_.kept) subtract(face, p, brush, grow);
-    work_.kept.swap(work_.next);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < work_.kept.size(); ++i) {
+        if (!misses(face, work_.kept[i], brush, grow))
+            subtract(face, work_.kept[i], brush, grow);
+        else if (kept++ != i)
+            work_.kept[kept - 1] = work_.kept[i];
+    }
+    work_.kept.resize(kept);
+    work_.kept.insert(work_.kept.end(), work_.next.begin(), work_.next.end());
 }
 
 // Walls stand on borders of brushes. What is added beside one hides it where that lies before it; what is cut takes it where that
@@ -195,30 +208,27 @@ Vec2 Carver::judged_at(const Face& face, const Brush& brush) const {
     return plan(face.normal) * (brush.cut || face.kind == FaceKind::cut ? -8.0 * geometry_.fine : 8.0 * geometry_.fine);
 }
 
-// Adds what lies outside of the brush to work_.next; returns what lies inside. `grow`: by how much its top and bottom are moved outwards.
-Polygon Carver::subtract(const Face& face, const Part& part, std::size_t index, double grow) {
+// A bound of the brush, k of work_.halves, as the face has it. `grow`: by how much top and bottom are moved outwards.
+HalfSpace Carver::half_of(const Face& face, std::size_t index, std::uint32_t k, double grow) const {
     const Brush& brush = geometry_.brushes[index];
-    if (!meet(part.box, brush.box)) {
-        work_.next.push_back(part);
-        return {};
-    }
-    const std::uint32_t first = work_.first_half[index], last = work_.first_half[index + 1];
-    const std::uint32_t sides = last - brush.polygon.count;
-    const Vec2 moved = judged_at(face, brush);
-    const auto half_of = [&](std::uint32_t k) {
-        HalfSpace half = work_.halves[k];
-        half.d += k < sides ? grow : -dot(plan(half.n), moved);
-        return half;
-    };
-    for (std::uint32_t k = first; k < last; ++k)
-        if (all_beyond(part.polygon, half_of(k))) {
-            work_.next.push_back(part);
-            return {};
-        }
+    HalfSpace half = work_.halves[k];
+    half.d += k < work_.first_half[index + 1] - brush.polygon.count ? grow : -dot(plan(half.n), judged_at(face, brush));
+    return half;
+}
+
+bool Carver::misses(const Face& face, const Part& part, std::size_t index, double grow) const {
+    if (!meet(part.box, geometry_.brushes[index].box)) return true;
+    for (std::uint32_t k = work_.first_half[index]; k < work_.first_half[index + 1]; ++k)
+        if (all_beyond(part.polygon, half_of(face, index, k, grow))) return true;
+    return false;
+}
+
+// Adds what lies outside of the brush to work_.next; returns what lies inside.
+Polygon Carver::subtract(const Face& face, const Part& part, std::size_t index, double grow) {
     Polygon rest = part.polygon;
-    for (std::uint32_t k = first; k < last && rest; ++k) {
+    for (std::uint32_t k = work_.first_half[index]; k < work_.first_half[index + 1] && rest; ++k) {
         Polygon inside, outside;
-        geometry_.points.split(rest, half_of(k), inside, outside);
+        geometry_.points.split(rest, half_of(face, index, k, grow), inside, outside);
         if (outside) work_.next.push_back(part_of(outside));
         rest = inside;
     }

@@ -61,6 +61,8 @@ class Carver {
     void keep_solid(const Face& face);
     void remove(const Face& face, std::size_t brush, double grow);
     Vec2 judged_at(const Face& face, const Brush& brush) const;
+    HalfSpace half_of(const Face& face, std::size_t index, std::uint32_t k, double grow) const;
+    bool misses(const Face& face, const Part& part, std::size_t index, double grow) const;
     Polygon subtract(const Face& face, const Part& part, std::size_t index, double grow);
     bool all_beyond(Polygon p, const HalfSpace& half) const;
     Part part_of(Polygon p) const;
