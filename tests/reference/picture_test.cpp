@@ -97,7 +97,7 @@ TEST(Picture, NeedsAnAssetAndOptionsInRange) {
     options.tolerance = 0.01;
     options.passes = 1;
     EXPECT_EQ(render_reference(asset, options).error().code, ErrorCode::invalid_argument);
-    options.passes = 6;
+    options.passes = 12;
     options.view.width = 0;
     EXPECT_EQ(render_reference(asset, options).error().code, ErrorCode::invalid_argument);
 }
