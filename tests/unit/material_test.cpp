@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 
@@ -78,6 +79,29 @@ TEST_F(MaterialTextures, AreReadWithSamplersAndTransforms) {
     EXPECT_NEAR(t[1], 3.0f, 1e-6);
     EXPECT_NEAR(t[2], 0.25f, 1e-6);
     EXPECT_NEAR(t[5], 0.5f, 1e-6);
+}
+
+TEST_F(MaterialTextures, GlassIsReadWithinItsRanges) {
+    Json document = textured();
+    EXPECT_EQ(read(document)->materials[0].transmission, 0.0f);
+    document["materials"][0]["extensions"] = Json::parse(R"({"KHR_materials_transmission": {"transmissionFactor": 0.75}, "KHR_materials_ior": {"ior": 1.33},
+        "KHR_materials_volume": {"thicknessFactor": 0.02, "attenuationDistance": 0.5, "attenuationColor": [0.5, 1, 0.25]}})");
+    auto asset = read(document);
+    ASSERT_TRUE(asset.ok()) << asset.error().message;
+    const MaterialInfo glass = asset->materials[0];
+    EXPECT_FLOAT_EQ(glass.transmission, 0.75f);
+    EXPECT_FLOAT_EQ(glass.ior, 1.33f);
+    EXPECT_FLOAT_EQ(glass.thickness, 0.02f);
+    EXPECT_FLOAT_EQ(glass.attenuation_distance, 0.5f);
+    EXPECT_FLOAT_EQ(glass.attenuation_color[2], 0.25f);
+    document["materials"][0]["extensions"] = Json::parse(R"({"KHR_materials_transmission": {"transmissionFactor": 7}, "KHR_materials_ior": {"ior": -2},
+        "KHR_materials_volume": {"thicknessFactor": "thick", "attenuationDistance": -1}})");
+    asset = read(document);
+    ASSERT_TRUE(asset.ok()) << asset.error().message;
+    EXPECT_EQ(asset->materials[0].transmission, 1.0f);
+    EXPECT_EQ(asset->materials[0].ior, 1.0f);
+    EXPECT_EQ(asset->materials[0].thickness, 0.0f);
+    EXPECT_TRUE(std::isinf(asset->materials[0].attenuation_distance));
 }
 
 TEST_F(MaterialTextures, AreLeftAloneUnlessAskedFor) {
