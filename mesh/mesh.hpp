@@ -53,6 +53,7 @@ struct TriangleMesh {
     double lowest = 0.0;          // of the surface, metres
 };
 
+// Of a map that ends, not closed, walls on the border reach to outer_level.
 // Ensures: every edge inside the map is shared by as many triangles that run along it one way as the other; with `closed` all are. Corners
 // nearer to each other than a 32nd of the tolerance are one. Equal input gives equal output.
 // Fails with invalid_argument: an option out of its range; limit_exceeded: more than kMaxTriangles.

@@ -56,6 +56,7 @@ struct Builder {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> splits;  // from the smaller corner to the larger
     Heights heights;
     TriangleMesh mesh;
+    std::vector<Boundary> outside;  // the column around the map
 
     double height(const Boundary& boundary, std::uint32_t corner) const { return boundary.plane.at(plan.corners[corner]); }
 
@@ -78,11 +79,10 @@ struct Builder {
 
     // Where a surface on one side of the edge passes one on the other side.
     void split_edge(std::size_t t, int i, std::int32_t beyond) {
-        if (beyond == kBorder) return;
         const auto [a, b] = std::minmax(plan.triangles[t].corner[i], plan.triangles[t].corner[(i + 1) % 3]);
         std::vector<double> at;
         for (const Boundary& here : columns.of(t))
-            for (const Boundary& there : columns.of(static_cast<std::size_t>(beyond))) {
+            for (const Boundary& there : column_beyond(beyond)) {
                 const double from = height(here, a) - height(there, a), to = height(here, b) - height(there, b);
                 if (std::min(std::abs(from), std::abs(to)) > options.fine && (from < 0.0) != (to < 0.0)) at.push_back(from / (from - to));
             }
@@ -107,6 +107,14 @@ struct Builder {
             for (const Boundary& boundary : columns.of(t))
                 for (const std::uint32_t corner : outline) heights.note(corner, height(boundary, corner));
         }
+        for_each_edge([&](std::size_t t, int i, std::int32_t beyond) {
+            if (beyond != kBorder) return;
+            outline.clear();
+            edge_of(plan.triangles[t], i, outline);
+            outline.push_back(plan.triangles[t].corner[(i + 1) % 3]);
+            for (const Boundary& boundary : outside)
+                for (const std::uint32_t corner : outline) heights.note(corner, height(boundary, corner));
+        });
         heights.sort(plan.corners.size(), options.fine);
         mesh.positions = heights.positions(plan.corners);
     }
@@ -146,9 +154,14 @@ struct Builder {
         double at_a, at_b;
     };
 
+    std::span<const Boundary> column_beyond(std::int32_t beyond) const {
+        if (beyond != kBorder) return columns.of(static_cast<std::size_t>(beyond));
+        return options.closed ? std::span<const Boundary>{} : std::span<const Boundary>{outside};
+    }
+
     // What is solid on one side of the edge alone.
     void put_walls(std::size_t t, int i, std::int32_t beyond, std::vector<Level>& levels) {
-        if (beyond == kBorder && !options.closed) return;
+        if (beyond == kBorder && !options.closed && !options.outside) return;
         std::vector<std::uint32_t> way;
         edge_of(plan.triangles[t], i, way);
         way.push_back(plan.triangles[t].corner[(i + 1) % 3]);
@@ -158,8 +171,7 @@ struct Builder {
                 levels.push_back({&boundary, here, height(boundary, way[k]), height(boundary, way[k + 1])});
             };
             for (const Boundary& boundary : columns.of(t)) take(boundary, true);
-            if (beyond != kBorder)
-                for (const Boundary& boundary : columns.of(static_cast<std::size_t>(beyond))) take(boundary, false);
+            for (const Boundary& boundary : column_beyond(beyond)) take(boundary, false);
             std::stable_sort(levels.begin(), levels.end(), [](const Level& x, const Level& y) { return x.at_a + x.at_b < y.at_a + y.at_b; });
             put_walls_between(way[k], way[k + 1], levels, plan.triangles[t].step[i]);
         }
@@ -256,7 +268,9 @@ void drop_unused(TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh close_surface(Plan plan, const Columns& columns, const SurfaceOptions& options) {
-    Builder builder{std::move(plan), columns, options, {}, {}, {}};
+    Builder builder{std::move(plan), columns, options, {}, {}, {}, {}};
+    if (options.outside && !columns.boundaries.empty())
+        builder.outside = {columns.boundaries.front(), {{{0, 0}, *options.outside}, {kGround, kGround}}};
     builder.for_each_edge([&](std::size_t t, int i, std::int32_t beyond) { builder.split_edge(t, i, beyond); });
     builder.note_heights();
     std::vector<std::uint32_t> outline;

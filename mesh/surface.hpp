@@ -1,6 +1,8 @@
 // Columns over a plan as one closed surface.
 #pragma once
 
+#include <optional>
+
 #include "columns.hpp"
 
 namespace burin::mesh {
@@ -8,6 +10,8 @@ namespace burin::mesh {
 struct SurfaceOptions {
     double fine = 0.0;    // metres: heights nearer than this over one corner are one
     bool closed = false;  // with sides on the border and a bottom
+    // Height of the solid around the map, where it is not closed: walls stand on the border. Nothing: it goes on beyond.
+    std::optional<double> outside;
 };
 
 // Takes the plan, whose edges are divided where surfaces of neighbouring columns cross above them. Cost: linear in the columns.

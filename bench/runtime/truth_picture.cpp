@@ -49,16 +49,46 @@ double to_srgb(double linear) {
     return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
 }
 
+double background_color() { return std::pow((0.93 + 0.055) / 1.055, 2.4); }
+
+std::array<double, 3> direction_to(const Light& light) {
+    const double a = light.azimuth * std::numbers::pi / 180.0, e = light.elevation * std::numbers::pi / 180.0;
+    return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+Look look_of(const scenes::Part& part, const Material* own) {
+    if (own && own->overrides) return {{double(own->base_color[0]), double(own->base_color[1]), double(own->base_color[2])}, double(own->metallic), double(own->roughness)};
+    return {{double(part.color[0]), double(part.color[1]), double(part.color[2])}, double(part.metallic), double(part.roughness)};
+}
+
+Vec3 shade(const Look& look, const Light& light, const Vec3& to_light, const Vec3& n, const Vec3& to_eye, bool lit) {
+    const Vec3 half = unit3({to_eye[0] + to_light[0], to_eye[1] + to_light[1], to_eye[2] + to_light[2]});
+    const double nl = std::max(dot3(n, to_light), 0.0), nv = std::max(dot3(n, to_eye), 1e-3), nh = std::max(dot3(n, half), 0.0);
+    const double a = std::max(look.roughness * look.roughness, 2e-3), a2 = a * a;
+    const double spread = nh * nh * (a2 - 1.0) + 1.0, d = a2 / (std::numbers::pi * spread * spread);
+    const double visible =
+        0.5 / (nl * std::sqrt(nv * nv * (1.0 - a2) + a2) + nv * std::sqrt(nl * nl * (1.0 - a2) + a2) + 1e-6);
+    const double off = 1.0 - std::max(dot3(to_eye, half), 0.0), grazing = off * off * off * off * off, sky = 0.5 + 0.5 * n[1];
+    Vec3 color;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double f0 = 0.04 + (look.albedo[i] - 0.04) * look.metallic, fresnel = f0 + (1.0 - f0) * grazing;
+        const double diffuse = look.albedo[i] * (1.0 - look.metallic) / std::numbers::pi;
+        const double direct = (diffuse * (1.0 - fresnel) + fresnel * d * visible) * (lit ? nl * light.strength : 0.0);
+        const double matt = look.albedo[i] * (1.0 - look.metallic), mirrored = fresnel * (1.0 + (0.75 - 1.0) * look.roughness);
+        const double around = matt + (mirrored - matt) * (0.1 + 0.9 * look.metallic);
+        color[i] = std::clamp(direct + around * light.ambient * (0.35 + 0.65 * sky), 0.0, 1.0);
+    }
+    return color;
+}
+
 TruthScene::TruthScene(const Subject& subject, const PlaneView& view, const Extent& extent)
     : pattern_(seen_part(subject.prepared.resolved, view)),
       truth_(pattern_),
       part_(subject.part()),
       view_(view),
       camera_(camera_of(view, pattern_.size)),
-      extent_(extent) {
-    const double a = view.light.azimuth * std::numbers::pi / 180.0, e = view.light.elevation * std::numbers::pi / 180.0;
-    light_ = {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
-}
+      extent_(extent),
+      light_(direction_to(view.light)) {}
 
 // Followed from the object surface: whatever is met before the point itself stands in the light.
 bool TruthScene::in_shadow(const RayHit& hit) const {
@@ -74,34 +104,9 @@ bool TruthScene::in_shadow(const RayHit& hit) const {
     return blocker.hit && blocker.t < climb - 1e-6 * pattern_.depth / light_[1];
 }
 
-Vec3 TruthScene::shade(const Vec3& n, const Vec3& to_eye, std::uint32_t element, bool lit) const {
-    Vec3 albedo = {double(part_.color[0]), double(part_.color[1]), double(part_.color[2])};
-    double metal = double(part_.metallic), rough = double(part_.roughness);
-    if (element != kGround) {
-        const Material& own = pattern_.materials[pattern_.styles[pattern_.elements[element].style].material];
-        if (own.overrides) {
-            for (std::size_t i = 0; i < 3; ++i) albedo[i] = double(own.base_color[i]);
-            metal = double(own.metallic);
-            rough = double(own.roughness);
-        }
-    }
-    const Vec3 half = unit3({to_eye[0] + light_[0], to_eye[1] + light_[1], to_eye[2] + light_[2]});
-    const double nl = std::max(dot3(n, light_), 0.0), nv = std::max(dot3(n, to_eye), 1e-3), nh = std::max(dot3(n, half), 0.0);
-    const double a2 = std::pow(std::max(rough * rough, 2e-3), 2.0);
-    const double d = a2 / (std::numbers::pi * std::pow(nh * nh * (a2 - 1.0) + 1.0, 2.0));
-    const double visible =
-        0.5 / (nl * std::sqrt(nv * nv * (1.0 - a2) + a2) + nv * std::sqrt(nl * nl * (1.0 - a2) + a2) + 1e-6);
-    const double grazing = std::pow(1.0 - std::max(dot3(to_eye, half), 0.0), 5.0), sky = 0.5 + 0.5 * n[1];
-    Vec3 color;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double f0 = 0.04 + (albedo[i] - 0.04) * metal, fresnel = f0 + (1.0 - f0) * grazing;
-        const double diffuse = albedo[i] * (1.0 - metal) / std::numbers::pi;
-        const double direct = (diffuse * (1.0 - fresnel) + fresnel * d * visible) * (lit ? nl * view_.light.strength : 0.0);
-        const double matt = albedo[i] * (1.0 - metal), mirrored = fresnel * (1.0 + (0.75 - 1.0) * rough);
-        const double around = matt + (mirrored - matt) * (0.1 + 0.9 * metal);
-        color[i] = std::clamp(direct + around * view_.light.ambient * (0.35 + 0.65 * sky), 0.0, 1.0);
-    }
-    return color;
+Look TruthScene::look_at(std::uint32_t element) const {
+    if (element == kGround) return look_of(part_, nullptr);
+    return look_of(part_, &pattern_.materials[pattern_.styles[pattern_.elements[element].style].material]);
 }
 
 TruthSample TruthScene::sample(double x, double y) const {
@@ -111,7 +116,7 @@ TruthSample TruthScene::sample(double x, double y) const {
     for (std::size_t i = 0; i < 3; ++i) way[i] = camera_.forward[i] + across * camera_.right[i] + upwards * camera_.up[i];
     way = unit3(way);
     TruthSample sample;
-    const double background = std::pow((0.93 + 0.055) / 1.055, 2.4);
+    const double background = background_color();
     sample.color = {background, background, background};
     if (way[1] >= 0.0) return sample;
     const double t = camera_.eye[1] / -way[1];
@@ -131,7 +136,7 @@ TruthSample TruthScene::sample(double x, double y) const {
     const Vec3 n = {hit.normal[0], hit.normal[2], hit.normal[1]};
     const bool faces = dot3(n, light_) > 0.0 && light_[1] > 0.0;
     const bool lit = faces && !in_shadow(hit);
-    sample.color = shade(n, {-way[0], -way[1], -way[2]}, hit.element, lit);
+    sample.color = shade(look_at(hit.element), view_.light, light_, n, {-way[0], -way[1], -way[2]}, lit);
     sample.feature = hit.element != kGround || hit.facet != kGround;
     // Neighbours along a path that look alike are alike: the element itself does not count.
     sample.what = 1 + ((std::uint64_t{hit.facet} << 2) ^ (hit.element == kGround ? 1u : 0u) ^ (lit ? 2u : 0u));

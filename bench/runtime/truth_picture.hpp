@@ -20,6 +20,21 @@ struct TruthSample {
     bool feature = false;         // met something that is not the ground
 };
 
+// What a facet looks like.
+struct Look {
+    std::array<double, 3> albedo;
+    double metallic, roughness;
+};
+// Of the part, or of a material of its own.
+Look look_of(const scenes::Part& part, const Material* own);
+// Towards the lamp.
+std::array<double, 3> direction_to(const Light& light);
+// The formula of the shader, written anew. All directions are of unit length, y up.
+std::array<double, 3> shade(const Look& look, const Light& light, const std::array<double, 3>& to_light, const std::array<double, 3>& normal,
+                            const std::array<double, 3>& to_eye, bool lit);
+// Linear, each channel: what is seen where no mesh is.
+double background_color();
+
 // A pattern on its plane in one light, ready for samples.
 class TruthScene {
   public:
@@ -28,8 +43,7 @@ class TruthScene {
     TruthSample sample(double x, double y) const;
 
   private:
-    std::array<double, 3> shade(const std::array<double, 3>& normal, const std::array<double, 3>& to_eye, std::uint32_t element,
-                                bool lit) const;
+    Look look_at(std::uint32_t element) const;
     bool in_shadow(const RayHit& hit) const;
 
     ResolvedPattern pattern_;
