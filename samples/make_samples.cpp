@@ -182,9 +182,15 @@ int write_plate(const std::string& folder) {
 // One line: name, source, elements, bytes of textures and file, and the options with which `burin render` shows it.
 void print_scene(const burin::scenes::SceneEntry& entry, const burin::scenes::Scene& scene, const burin::scenes::SceneFile& file) {
     const burin::scenes::View& view = scene.view;
-    std::printf("%s; %s; %zu; %zu; %zu; --azimuth %g --elevation %g --zoom %g --light %g,%g", entry.name, entry.source, file.elements,
-                file.texture_bytes, file.bytes.size(), view.azimuth, view.elevation, view.zoom, view.light_azimuth,
-                view.light_elevation);
+    std::printf("%s; %s; %zu; %zu; %zu;", entry.name, entry.source, file.elements, file.texture_bytes, file.bytes.size());
+    if (view.stand) {
+        const auto& [eye, target, field_of_view] = *view.stand;
+        std::printf(" --eye %g,%g,%g --target %g,%g,%g --fov %g", eye[0], eye[1], eye[2], target[0], target[1], target[2], field_of_view);
+    } else {
+        std::printf(" --azimuth %g --elevation %g --zoom %g", view.azimuth, view.elevation, view.zoom);
+    }
+    std::printf(" --light %g,%g", view.light_azimuth, view.light_elevation);
+    if (view.room) std::printf(" --environment room");
     if (view.center) std::printf(" --center %g,%g", view.center->x, view.center->y);
     std::printf("\n");
 }

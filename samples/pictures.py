@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Draws every scene and rewrites the list in README.md, from what make_samples and burin say.
 
-    samples/pictures.py BUILD_FOLDER        needs make_samples, burin, and ImageMagick's convert
+    samples/pictures.py BUILD_FOLDER [SCENE...]     needs make_samples, burin, and ImageMagick's convert
 
+With names only these are drawn; the list is that of all scenes.
 The suit of armour is drawn where ../shared/data is; without it its picture and its figures stay as they are.
 """
 
@@ -72,13 +73,14 @@ def replaced(text, begin, end, middle):
 
 
 def main():
-    build = sys.argv[1]
+    build, names = sys.argv[1], sys.argv[2:]
     os.makedirs(os.path.join(HERE, "pictures"), exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         lines = run(os.path.join(build, "samples", "make_samples"), folder, "scenes").splitlines()
-        for line in lines:
-            draw(build, folder, line.split("; ")[0], line.split("; ")[-1])
-        armour = armour_entry(build, folder)
+        for name, options in ((line.split("; ")[0], line.split("; ")[-1]) for line in lines):
+            if not names or name in names:
+                draw(build, folder, name, options)
+        armour = None if names else armour_entry(build, folder)
     path = os.path.join(HERE, "README.md")
     with open(path, encoding="utf-8") as file:
         text = replaced(file.read(), BEGIN, END, "\n" + "".join(map(entry, lines)))

@@ -99,14 +99,7 @@ Pattern hieroglyphs() {
 Pattern paving() {
     Pattern p = sheet({0.8, 0.8}, 0.006, 0.0);
     p.profiles = {trough(0.008, 0.004, 0.005)};
-    for (int i = 0; i < 2; ++i) {
-        const double y = 0.2 + 0.4 * i;
-        p.paths.push_back(Stroke({0.0, y}).line({0.8, y}).close_across().path(0));
-        for (int k = 0; k < 2; ++k) {
-            const double x = 0.1 + 0.4 * k + 0.2 * i;
-            p.paths.push_back(polyline({{x, y}, {x, y + 0.4}}).path(0));
-        }
-    }
+    add_courses(p, 2, 2, 0);
     return p;
 }
 

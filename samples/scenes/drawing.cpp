@@ -204,4 +204,16 @@ Path with_sine(const Path& path, double width_amplitude, double height_amplitude
     return scaled(path, wave(width_amplitude), wave(height_amplitude), 0.06);
 }
 
+void add_courses(Pattern& p, int courses, int stones, std::uint32_t profile, std::uint32_t material) {
+    const Vec2 stone{p.size.x / stones, p.size.y / courses};
+    for (int row = 0; row < courses; ++row) {
+        const double y = stone.y * (row + 0.5);
+        p.paths.push_back(Stroke({0.0, y}).line({p.size.x, y}).close_across().path(profile, material));
+        for (int k = 0; k < stones; ++k) {
+            const double x = stone.x * (k + 0.25 + 0.5 * (row % 2));
+            p.paths.push_back(polyline({{x, y}, {x, y + stone.y}}).path(profile, material));
+        }
+    }
+}
+
 }  // namespace burin::scenes

@@ -60,6 +60,9 @@ Path scaled(const Path& path, const std::function<double(double)>& width, const 
 Path with_sine(const Path& path, double width_amplitude, double height_amplitude, double wavelength);
 double path_length(const Path& path);
 
+// Joints of a wall or floor laid in courses over the whole tile, each course shifted by half a stone against the one before it.
+void add_courses(Pattern& pattern, int courses, int stones, std::uint32_t profile, std::uint32_t material = 0);
+
 // Cross-sections, metres. Halves are widths from the path line to where the ground begins.
 Profile vee(double half, double deep);
 Profile trough(double half, double floor, double deep);   // flat floor of half width `floor`

@@ -5,38 +5,6 @@
 namespace burin::scenes {
 namespace {
 
-using Vec3 = std::array<double, 3>;
-
-// A parallelogram with uv (0,0) at `corner`; u runs along `across`, v along `down`. The outside is across x -down.
-Mesh quad(Vec3 corner, Vec3 across, Vec3 down, Vec2 tile) {
-    const Vec3 n = {down[1] * across[2] - down[2] * across[1], down[2] * across[0] - down[0] * across[2],
-                    down[0] * across[1] - down[1] * across[0]};
-    const double long_n = std::hypot(n[0], n[1], n[2]);
-    Mesh mesh = make_sheet(1, 1, [&](double u, double v) {
-        SurfacePoint3 point;
-        for (std::size_t i = 0; i < 3; ++i) {
-            point.position[i] = corner[i] + u * across[i] + v * down[i];
-            point.normal[i] = n[i] / long_n;
-        }
-        return point;
-    });
-    for (std::size_t i = 0; i < mesh.uvs.size(); i += 2) {
-        mesh.uvs[i] *= float(std::hypot(across[0], across[1], across[2]) / tile.x);
-        mesh.uvs[i + 1] *= float(std::hypot(down[0], down[1], down[2]) / tile.y);
-    }
-    return mesh;
-}
-
-// Box without top and bottom: four walls of one tile size.
-Mesh walls(Vec3 low, Vec3 high, Vec2 tile) {
-    const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
-    Mesh mesh = quad({low[0], high[1], high[2]}, {x, 0, 0}, {0, -y, 0}, tile);
-    append(mesh, quad({high[0], high[1], high[2]}, {0, 0, -z}, {0, -y, 0}, tile));
-    append(mesh, quad({high[0], high[1], low[2]}, {-x, 0, 0}, {0, -y, 0}, tile));
-    append(mesh, quad({low[0], high[1], low[2]}, {0, 0, z}, {0, -y, 0}, tile));
-    return mesh;
-}
-
 constexpr Vec2 kRoofTile{0.8, 0.8};
 
 // Rows of tiles: each row rises to its lower edge and drops there; gaps between tiles end on the edge above. Every tile
@@ -67,14 +35,7 @@ Pattern bricks() {
     Pattern p = sheet({1.0, 0.6}, 0.012, 0.0);
     p.profiles = {trough(0.011, 0.006, 0.010)};
     p.materials.push_back({true, {0.62f, 0.60f, 0.56f, 1.0f}, 0.0f, 0.9f});
-    for (int row = 0; row < 6; ++row) {
-        const double y = 0.05 + 0.1 * row;
-        p.paths.push_back(Stroke({0.0, y}).line({1.0, y}).close_across().path(0, 1));
-        for (int k = 0; k < 4; ++k) {
-            const double x = 0.25 * k + (row % 2 == 0 ? 0.0625 : 0.1875);
-            p.paths.push_back(polyline({{x, y}, {x, y + 0.1}}).path(0, 1));
-        }
-    }
+    add_courses(p, 6, 4, 0, 1);
     return p;
 }
 
@@ -118,16 +79,16 @@ Scene make_house() {
     scene.flat = false;
     // Both slopes reach over the walls by kOver.
     const double fall = (kRidge - kEaves) / kZ, low = kEaves - fall * kOver, run = kZ + kOver, drop = kRidge - low;
-    Mesh roof = quad({-kX - kOver, kRidge, 0}, {2 * (kX + kOver), 0, 0}, {0, -drop, run}, kRoofTile);
-    append(roof, quad({kX + kOver, kRidge, 0}, {-2 * (kX + kOver), 0, 0}, {0, -drop, -run}, kRoofTile));
+    Mesh roof = make_quad({-kX - kOver, kRidge, 0}, {2 * (kX + kOver), 0, 0}, {0, -drop, run}, kRoofTile);
+    append(roof, make_quad({kX + kOver, kRidge, 0}, {-2 * (kX + kOver), 0, 0}, {0, -drop, -run}, kRoofTile));
     scene.parts.push_back({"roof", tiles(), std::move(roof), {0.60f, 0.22f, 0.14f}, 0.0f, 0.5f});
 
     const Vec2 brick{1.0, 0.6};
-    Mesh brickwork = walls({-kX, 0, -kZ}, {kX, kEaves, kZ}, brick);
-    append(brickwork, walls({0.9, 2.6, -0.5}, {1.4, 4.3, 0.0}, brick));
+    Mesh brickwork = make_sides({-kX, 0, -kZ}, {kX, kEaves, kZ}, brick);
+    append(brickwork, make_sides({0.9, 2.6, -0.5}, {1.4, 4.3, 0.0}, brick));
     for (const double side : {1.0, -1.0}) {
         // Gable: a quad whose upper corners meet in the ridge.
-        Mesh gable = quad({side * kX, kRidge, side * kZ}, {0, 0, -2 * side * kZ}, {0, kEaves - kRidge, 0}, brick);
+        Mesh gable = make_quad({side * kX, kRidge, side * kZ}, {0, 0, -2 * side * kZ}, {0, kEaves - kRidge, 0}, brick);
         for (const std::size_t top : {0, 1}) {
             gable.positions[3 * top + 2] = 0.0f;
             gable.uvs[2 * top] = float(kZ / brick.x);
@@ -135,12 +96,12 @@ Scene make_house() {
         append(brickwork, gable);
     }
     scene.parts.push_back({"walls", bricks(), std::move(brickwork), {0.52f, 0.24f, 0.17f}, 0.0f, 0.85f});
-    scene.parts.push_back({"door", planks(), quad({-0.5, 2.0, kZ + 0.01}, {1, 0, 0}, {0, -2, 0}, {1, 2}), {0.32f, 0.20f, 0.11f}, 0.0f, 0.6f});
-    Mesh windows = quad({-1.6, 1.8, kZ + 0.01}, {0.8, 0, 0}, {0, -0.9, 0}, {0.8, 0.9});
-    append(windows, quad({0.8, 1.8, kZ + 0.01}, {0.8, 0, 0}, {0, -0.9, 0}, {0.8, 0.9}));
-    append(windows, quad({kX + 0.01, 1.8, 0.4}, {0, 0, -0.8}, {0, -0.9, 0}, {0.8, 0.9}));
+    scene.parts.push_back({"door", planks(), make_quad({-0.5, 2.0, kZ + 0.01}, {1, 0, 0}, {0, -2, 0}, {1, 2}), {0.32f, 0.20f, 0.11f}, 0.0f, 0.6f});
+    Mesh windows = make_quad({-1.6, 1.8, kZ + 0.01}, {0.8, 0, 0}, {0, -0.9, 0}, {0.8, 0.9});
+    append(windows, make_quad({0.8, 1.8, kZ + 0.01}, {0.8, 0, 0}, {0, -0.9, 0}, {0.8, 0.9}));
+    append(windows, make_quad({kX + 0.01, 1.8, 0.4}, {0, 0, -0.8}, {0, -0.9, 0}, {0.8, 0.9}));
     scene.parts.push_back({"windows", panes(), std::move(windows), {0.82f, 0.82f, 0.78f}, 0.0f, 0.4f});
-    scene.parts.push_back({"yard", cobbles(), quad({-4, 0, -3.5}, {8, 0, 0}, {0, 0, 7}, {1.2, 1.2}), {0.42f, 0.42f, 0.40f}, 0.0f, 0.8f});
+    scene.parts.push_back({"yard", cobbles(), make_quad({-4, 0, -3.5}, {8, 0, 0}, {0, 0, 7}, {1.2, 1.2}), {0.42f, 0.42f, 0.40f}, 0.0f, 0.8f});
     scene.view.azimuth = 32.0;
     scene.view.elevation = 14.0;
     scene.view.zoom = 1.8;

@@ -27,6 +27,34 @@ Mesh make_sheet(int columns, int rows, const std::function<SurfacePoint3(double,
     return mesh;
 }
 
+Mesh make_quad(Vec3 corner, Vec3 across, Vec3 down, Vec2 tile) {
+    const Vec3 n = {down[1] * across[2] - down[2] * across[1], down[2] * across[0] - down[0] * across[2],
+                    down[0] * across[1] - down[1] * across[0]};
+    const double long_n = std::hypot(n[0], n[1], n[2]);
+    Mesh mesh = make_sheet(1, 1, [&](double u, double v) {
+        SurfacePoint3 point;
+        for (std::size_t i = 0; i < 3; ++i) {
+            point.position[i] = corner[i] + u * across[i] + v * down[i];
+            point.normal[i] = n[i] / long_n;
+        }
+        return point;
+    });
+    for (std::size_t i = 0; i < mesh.uvs.size(); i += 2) {
+        mesh.uvs[i] *= float(std::hypot(across[0], across[1], across[2]) / tile.x);
+        mesh.uvs[i + 1] *= float(std::hypot(down[0], down[1], down[2]) / tile.y);
+    }
+    return mesh;
+}
+
+Mesh make_sides(Vec3 low, Vec3 high, Vec2 tile) {
+    const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+    Mesh mesh = make_quad({low[0], high[1], high[2]}, {x, 0, 0}, {0, -y, 0}, tile);
+    append(mesh, make_quad({high[0], high[1], high[2]}, {0, 0, -z}, {0, -y, 0}, tile));
+    append(mesh, make_quad({high[0], high[1], low[2]}, {-x, 0, 0}, {0, -y, 0}, tile));
+    append(mesh, make_quad({low[0], high[1], low[2]}, {0, 0, z}, {0, -y, 0}, tile));
+    return mesh;
+}
+
 Mesh make_rectangle(Vec2 size) {
     return make_sheet(1, 1, [=](double u, double v) {
         return SurfacePoint3{{(u - 0.5) * size.x, 0.0, (v - 0.5) * size.y}, {0, 1, 0}};

@@ -16,6 +16,14 @@ struct SurfacePoint3 {
 // so that triangles come out counter-clockwise.
 Mesh make_sheet(int columns, int rows, const std::function<SurfacePoint3(double u, double v)>& at);
 
+using Vec3 = std::array<double, 3>;
+
+// A parallelogram with uv (0,0) at `corner`; u runs along `across`, v along `down`, in tiles of that many metres. The outside is
+// down x across.
+Mesh make_quad(Vec3 corner, Vec3 across, Vec3 down, Vec2 tile);
+// Box without top and bottom: four sides of one tile size, their uv (0,0) at the upper left of each.
+Mesh make_sides(Vec3 low, Vec3 high, Vec2 tile);
+
 // Rectangle of uv [0,1]², centred: size.x along +x, size.y along +z, facing up; as burin::make_plane.
 Mesh make_rectangle(Vec2 size);
 // u once around eastwards, v from the north pole to the south pole; the poles are cut off at `cap` radians.

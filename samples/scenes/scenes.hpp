@@ -41,7 +41,14 @@ struct Part {
 struct View {
     double azimuth = 30.0, elevation = 50.0, zoom = 1.0;
     std::optional<Vec2> center;  // uv of the first part
+    // Where the camera stands in a scene that is seen from within; it replaces azimuth, elevation and zoom.
+    struct Stand {
+        std::array<double, 3> eye, target;  // metres
+        double field_of_view = 30.0;        // degrees
+    };
+    std::optional<Stand> stand;
     double light_azimuth = -50.0, light_elevation = 35.0;
+    bool room = false;  // light from all around is that of the grey room, which grooves shade
 };
 
 struct Scene {

@@ -14,6 +14,7 @@ Scene make_scratched_sphere();
 Scene make_engraved_armour();
 Scene make_carved_cube();
 Scene make_carved_ball();
+Scene make_atrium();
 
 // Figures 5 to 7.
 Scene make_crossing();

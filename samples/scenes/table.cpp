@@ -20,6 +20,7 @@ const std::vector<SceneEntry>& scene_table() {
         {"engraved_armour", "2010 figure 1", make_engraved_armour},
         {"carved_cube", "2010 section 4.1", make_carved_cube},
         {"carved_ball", "2010 section 4.1", make_carved_ball},
+        {"atrium", "2010 figures 10 and 11", make_atrium},
         {"parallel_grooves", "2008 figure 10, left", make_parallel_grooves},
         {"crossing_scratches", "2008 figure 10, right", make_crossing_scratches},
         {"grooved_sphere", "2008 figure 11", make_grooved_sphere},
