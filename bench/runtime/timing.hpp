@@ -1,23 +1,30 @@
 // Time of a picture.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "subject.hpp"
 
 namespace burin::bench {
 
 // Processor time of one pass over a picture: of a ray for every pixel, or of a sample's areas, shadows included. It is what four samples
-// take beyond one, so that loading and building the program do not count, each the least of all tries.
+// take beyond one, so that loading and building the program do not count.
 class PassTimer {
   public:
-    PassTimer(const Asset& asset, const RenderOptions& options) : asset_(asset), options_(options) {}
+    using Draw = std::function<Result<RgbaImage>(int samples)>;
+
+    explicit PassTimer(Draw draw) : draw_(std::move(draw)) {}
+    // Both must outlive it.
+    PassTimer(const Asset& asset, const RenderOptions& options);
     void try_once();
-    // Below 0 where nothing could be drawn.
-    double seconds() const { return (four_ - one_) / 3.0; }
+    // Of the least of all tries, and the median of them. Below 0 where nothing could be drawn.
+    double seconds() const;
+    double median_seconds() const;
 
   private:
-    const Asset& asset_;
-    RenderOptions options_;
-    double one_ = 1e9, four_ = 1e9;
+    Draw draw_;
+    std::vector<double> one_, four_;  // of each try
 };
 
 }  // namespace burin::bench
