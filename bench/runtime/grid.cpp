@@ -12,7 +12,7 @@
 namespace burin::bench {
 namespace {
 
-constexpr double kAngles[] = {30.0, 60.0, 80.0};  // off the normal
+constexpr double kAngles[] = {0.0, 30.0, 60.0, 80.0};  // off the normal
 constexpr double kFactors[] = {0.25, 0.35, 0.5, 0.71, 1.0, 1.41, 2.0, 2.83, 4.0};
 
 struct Curve {
@@ -40,7 +40,7 @@ std::string svg_of(const std::vector<Curve>& curves) {
     char row[200];
     std::snprintf(row, sizeof row, "<path d='M%g %g V%g H%g' fill='none' stroke='#888'/>\n", kEdge, kEdge, kHigh - kEdge, kWide - kEdge);
     svg += row;
-    constexpr const char* kColors[] = {"#1b7837", "#2166ac", "#b2182b"};
+    constexpr const char* kColors[] = {"#762a83", "#1b7837", "#2166ac", "#b2182b"};
     for (std::size_t k = 0; k < curves.size(); ++k) {
         svg += std::string("<polyline fill='none' stroke='") + kColors[k] + "' points='";
         for (std::size_t i = 0; i < curves[k].times.size(); ++i) {

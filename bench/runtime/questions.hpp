@@ -36,6 +36,7 @@ void ask_features(const Settings& settings);
 void ask_grid(const Settings& settings);
 void ask_reference(const Settings& settings);
 void ask_atrium(const Settings& settings);
+void ask_tables(const Settings& settings);
 
 // Calls visit for every flat subject that the settings name; says so where a stage refuses one.
 void for_each_subject(const Settings& settings, const std::function<void(const Subject&)>& visit, bool flat_only = true);

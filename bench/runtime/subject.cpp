@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include <burin/model.hpp>
+#include <write_scene.hpp>
+
 namespace burin::bench {
 namespace {
 
@@ -60,6 +63,29 @@ Result<Subject> prepare_subject(const std::string& name, scenes::Scene scene, st
     subject.width = mean_width(subject.prepared.resolved);
     subject.focus = focus_of(subject.prepared.resolved);
     return subject;
+}
+
+Result<OpenedScene> open_scene(const scenes::Scene& scene) {
+    const auto file = scenes::write_scene(scene);
+    if (!file) return file.error();
+    auto asset = read_asset(file->bytes);
+    if (!asset) return asset.error();
+    OpenedScene opened{std::move(*asset), {}};
+    RenderOptions& options = opened.options;
+    const scenes::View& view = scene.view;
+    options.camera.azimuth = view.azimuth;
+    options.camera.elevation = view.elevation;
+    options.camera.zoom = view.zoom;
+    options.camera.center = view.center;
+    if (view.stand) {
+        options.camera.eye = view.stand->eye;
+        options.camera.target = view.stand->target;
+        options.camera.field_of_view = view.stand->field_of_view;
+    }
+    options.light.azimuth = view.light_azimuth;
+    options.light.elevation = view.light_elevation;
+    if (view.room) options.environment = Environment{};
+    return opened;
 }
 
 std::vector<PlaneView> standard_views(const Subject& subject, int width, int height) {

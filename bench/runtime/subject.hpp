@@ -25,6 +25,13 @@ struct Subject {
 Result<Subject> prepare_subject(const scenes::SceneEntry& entry, std::size_t part = 0, const GridOptions& grid = {});
 Result<Subject> prepare_subject(const std::string& name, scenes::Scene scene, std::size_t part = 0, const GridOptions& grid = {});
 
+// All parts of a scene, as a file holds them, and the view that the scene is shown from; size and filter are the caller's.
+struct OpenedScene {
+    Asset asset;
+    RenderOptions options;
+};
+Result<OpenedScene> open_scene(const scenes::Scene& scene);
+
 // A perspective view of the plane, the same for the renderer and the truth.
 struct PlaneView {
     std::string name;
