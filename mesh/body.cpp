@@ -93,21 +93,29 @@ class Vertices {
     std::unordered_map<Key, std::uint32_t, Hash> places_;
 };
 
+// A point of the relief, and the body's normal there.
+struct Lifted {
+    Vec3 position, up;
+};
+
 // A triangle of the body in the plane of the pattern.
 struct Patch {
     Vec2 at[3];  // metres
     Vec3 position[3], normal[3];
+    double scale = 1.0;  // metres of the world per metre of the pattern
     double area = 0.0;  // twice; below 0 where the picture is not mirrored, v being down
     Box box;
 
-    Vec3 lift(Vec3 p, double top) const {
+    Lifted lift(Vec3 p, double top) const {
         const Vec2 q = plan(p);
         double w[3];
         for (int i = 0; i < 3; ++i) w[i] = cross(at[(i + 1) % 3] - q, at[(i + 2) % 3] - q) / area;
         const Vec3 on = position[0] * w[0] + position[1] * w[1] + position[2] * w[2];
-        const Vec3 up = unit(normal[0] * w[0] + normal[1] * w[1] + normal[2] * w[2]);
-        return on + up * (p.z - top);
+        const Vec3 up = normal[0] * w[0] + normal[1] * w[1] + normal[2] * w[2];
+        return {on + unit(up) * ((p.z - top) * scale), unit(up)};
     }
+    // Of the flat triangle, outwards.
+    Vec3 flat() const { return unit(cross(position[1] - position[0], position[2] - position[0])); }
 };
 
 Vec3 vector_of(const std::vector<float>& values, std::uint32_t i) { return {values[3 * i], values[3 * i + 1], values[3 * i + 2]}; }
@@ -118,9 +126,10 @@ Patch patch_of(const Primitive& primitive, std::size_t first, Vec2 size) {
         const std::uint32_t v = primitive.indices[first + i];
         patch.at[i] = {double(primitive.uvs[2 * v]) * size.x, double(primitive.uvs[2 * v + 1]) * size.y};
         patch.position[i] = vector_of(primitive.positions, v);
-        patch.normal[i] = vector_of(primitive.normals, v) * double(primitive.scale);
+        patch.normal[i] = vector_of(primitive.normals, v);
         include(patch.box, patch.at[i]);
     }
+    patch.scale = double(primitive.scale);
     patch.area = cross(patch.at[1] - patch.at[0], patch.at[2] - patch.at[0]);
     return patch;
 }
@@ -159,19 +168,21 @@ class BodyMesher {
     void add_clipped(const Patch& patch, Polygon polygon, Origin origin) {
         for (const HalfSpace& edge : edges_) polygon = polygon ? points_.clip(polygon, edge) : polygon;
         if (!polygon) return;
-        std::vector<Vec3> corners;
+        std::vector<Lifted> corners;
         for (std::uint32_t i = 0; i < polygon.count; ++i) corners.push_back(patch.lift(points_(polygon, i), pattern_.base_offset));
         if (patch.area < 0.0) std::reverse(corners.begin(), corners.end());
-        add_polygon(corners, origin);
+        add_polygon(corners, patch.flat(), origin);
     }
 
-    void add_polygon(const std::vector<Vec3>& corners, Origin origin) {
+    // The facet's normal turns with the body's: a round body stays smooth.
+    void add_polygon(const std::vector<Lifted>& corners, Vec3 flat, Origin origin) {
         Vec3 area{};
-        for (std::size_t i = 1; i + 1 < corners.size(); ++i) area = area + cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+        for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+            area = area + cross(corners[i].position - corners[0].position, corners[i + 1].position - corners[0].position);
         if (!(dot(area, area) > 0.0)) return;
         const Vec3 normal = unit(area);
         std::vector<std::uint32_t> at;
-        for (const Vec3& corner : corners) at.push_back(vertices_.index_of(corner, normal));
+        for (const Lifted& corner : corners) at.push_back(vertices_.index_of(corner.position, unit(normal + corner.up - flat)));
         for (std::size_t i = 1; i + 1 < at.size(); ++i) {
             if (at[0] == at[i] || at[i] == at[i + 1] || at[i + 1] == at[0]) continue;
             out_.indices.insert(out_.indices.end(), {at[0], at[i], at[i + 1]});

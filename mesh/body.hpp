@@ -15,7 +15,7 @@ namespace burin::mesh {
 
 struct BodyMesh {
     std::vector<float> positions;  // three per vertex, metres, space of the primitive
-    std::vector<float> normals;    // three per vertex, of the facets: corners are stored once for each plane that meets there
+    std::vector<float> normals;    // three per vertex, of the facets, bent as the body's are: corners are stored once for each facet that meets there
     std::vector<std::uint32_t> indices;
     std::vector<Origin> origins;  // of each triangle
 };
