@@ -171,6 +171,7 @@ const std::vector<OptionConflict>& option_conflicts() {
          "--top all of them do"},
         {"render", "--azimuth --elevation --zoom", "--eye",
          "the eye is the camera's place; --target, --center and --fov go with it"},
+        {"mesh", "--base", "--open", "an open tile has no bottom; without --open it has"},
         {"render", "--center", "--target", "both name the point the camera looks at; one of them works"},
         {"render", "--fov", "--orthographic", "parallel lines of sight have no angle; --zoom works"},
     };
