@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "columns.hpp"
@@ -31,12 +32,18 @@ double mean_width(const ResolvedPattern& pattern) {
     return run > 0.0 && width > 0.0 ? width / run : std::max(pattern.size.x, pattern.size.y);
 }
 
+std::string short_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
 Result<double> tolerance_of(const ResolvedPattern& pattern, const MeshOptions& options) {
     const double longer = std::max(pattern.size.x, pattern.size.y), least = 1e-7 * longer, most = 0.1 * longer;
     if (options.tolerance == 0.0) return std::clamp(1e-3 * mean_width(pattern), least, most);
     if (options.tolerance >= least && options.tolerance <= most) return options.tolerance;
-    return Error{ErrorCode::invalid_argument, "tolerance " + std::to_string(options.tolerance) + " m is not within [" + std::to_string(least) + ", " +
-                                                  std::to_string(most) + "], 1e-7 to 0.1 times the longer side of the map"};
+    return Error{ErrorCode::invalid_argument, "tolerance " + short_text(options.tolerance) + " m is not within [" + short_text(least) + ", " +
+                                                  short_text(most) + "], 1e-7 to 0.1 times the longer side of the map"};
 }
 
 // All elements that act anywhere on the map.
@@ -65,7 +72,7 @@ void add_step_lines(const GroovedSurface& surface, const Gathered& gathered, dou
 Result<TriangleMesh> mesh_pattern(const ResolvedPattern& pattern, const CellGrid& grid, const MeshOptions& options) {
     const Result<double> tolerance = tolerance_of(pattern, options);
     if (!tolerance) return tolerance.error();
-    if (!(options.base >= 0.0)) return Error{ErrorCode::invalid_argument, "base " + std::to_string(options.base) + " m is below 0"};
+    if (!(options.base >= 0.0)) return Error{ErrorCode::invalid_argument, "base " + short_text(options.base) + " m is below 0"};
     const GroovedSurface surface(pattern, grid);
     const Gathered gathered = gather_map(surface);
     LocalGeometry geometry;
@@ -83,7 +90,7 @@ Result<TriangleMesh> mesh_pattern(const ResolvedPattern& pattern, const CellGrid
     TriangleMesh mesh = close_surface(std::move(plan), columns, {geometry.fine, options.closed, outside});
     if (mesh.triangles.size() > kMaxTriangles)
         return Error{ErrorCode::limit_exceeded, std::to_string(mesh.triangles.size()) + " triangles are more than " + std::to_string(kMaxTriangles) +
-                                                    "; a larger tolerance than " + std::to_string(*tolerance) + " m takes fewer"};
+                                                    "; a larger tolerance than " + short_text(*tolerance) + " m takes fewer"};
     mesh.tolerance = *tolerance;
     mesh.lowest = surface.lowest();
     return mesh;

@@ -168,12 +168,12 @@ TEST(Tile, RefusesWhatMakesNoSense) {
     options.tolerance = 1.0;
     const auto coarse = mesh_pattern(pattern, *grid, options);
     ASSERT_FALSE(coarse);
-    EXPECT_NE(coarse.error().message.find("tolerance 1.0"), std::string::npos) << coarse.error().message;
+    EXPECT_NE(coarse.error().message.find("tolerance 1 m"), std::string::npos) << coarse.error().message;
     options.tolerance = 0.0;
     options.base = -1.0;
     const auto sunk = mesh_pattern(pattern, *grid, options);
     ASSERT_FALSE(sunk);
-    EXPECT_NE(sunk.error().message.find("base -1.0"), std::string::npos) << sunk.error().message;
+    EXPECT_NE(sunk.error().message.find("base -1 m"), std::string::npos) << sunk.error().message;
 }
 
 // Every corner lies on the tile's own surface, wrapped around the ball.
