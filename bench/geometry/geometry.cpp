@@ -1,10 +1,10 @@
 // bench_geometry: the reference renderer beside ray-traced triangles, as [2008] table 1 has it, at equal error.
 //
-//     bench_geometry [--quick] [--scene NAME] [--cache FOLDER] [--pictures FOLDER]
+//     bench_geometry [time|memory] [--quick] [--scene NAME] [--cache FOLDER] [--pictures FOLDER]
 //
 // For each flat scene and view: the reference's error against the truth and its time; then Embree on the exact mesh, with more and more samples
 // per pixel, until it is as near: uniform, and adaptive. Times are processor time of all threads, the least of three; the mesh and its BVH are
-// made beforehand.
+// made beforehand. Memory: the smallest displaced grid that comes within a decibel of the exact mesh.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -25,7 +25,7 @@ namespace burin::bench {
 namespace {
 
 struct Settings {
-    bool quick = false;
+    bool quick = false, time = true, memory = true;
     std::string scene, cache, pictures;
 };
 
@@ -145,7 +145,7 @@ void measure_memory(const Settings& settings, const Subject& subject, const mesh
     double found = 0.0;
     std::size_t bytes = 0;
     int side = 128;
-    for (; side <= (settings.quick ? 2048 : 4096); side *= 2) {
+    for (; side <= (settings.quick ? 1024 : 4096); side *= 2) {
         const TracedMesh grid(displaced_grid(surface, side), pattern, extent);
         bytes = grid.bytes();
         found = compare_pictures(draw_traced(grid, subject, view, many), truth).psnr;
@@ -188,22 +188,34 @@ std::vector<Prepared> prepare(const Settings& settings) {
     return out;
 }
 
-void run(const Settings& settings) {
-    const std::vector<Prepared> all = prepare(settings);
-    const int width = settings.quick ? 96 : 160, height = settings.quick ? 72 : 120;
+struct Size {
+    int width, height;
+};
+
+void ask_time(const Settings& settings, const std::vector<Prepared>& all, Size size) {
     std::printf("\n### Time at equal error\n\n| scene | view | reference dB | us/pixel | Embree samples | dB | x time | adaptive | dB | x time |\n"
                 "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     Ratios ratios;
     for (const Prepared& one : all)
-        for (const PlaneView& view : standard_views(one.subject, width, height)) measure_view(settings, one.subject, one.tile, view, ratios);
+        for (const PlaneView& view : standard_views(one.subject, size.width, size.height)) measure_view(settings, one.subject, one.tile, view, ratios);
     std::printf("\nMedian: uniform %.1f, adaptive %.1f; at 80 degrees the lower of both: median %.1f, least %.1f\n", median(ratios.uniform), median(ratios.adaptive),
                 median(ratios.steep), ratios.steep.empty() ? 0.0 : *std::min_element(ratios.steep.begin(), ratios.steep.end()));
+}
+
+void ask_memory(const Settings& settings, const std::vector<Prepared>& all, Size size) {
     std::printf("\n### Memory at equal error\n\n| scene | reference KB | exact dB | triangles | MB | ratio | grid | dB | MB | ratio |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     for (const Prepared& one : all) {
         const auto grid = build_grid(one.subject.prepared.resolved);
         const reference::GroovedSurface surface(one.subject.prepared.resolved, *grid);
-        measure_memory(settings, one.subject, one.tile, standard_views(one.subject, width, height)[1], surface);
+        measure_memory(settings, one.subject, one.tile, standard_views(one.subject, size.width, size.height)[1], surface);
     }
+}
+
+void run(const Settings& settings) {
+    const std::vector<Prepared> all = prepare(settings);
+    const Size size = settings.quick ? Size{96, 72} : Size{160, 120};
+    if (settings.time) ask_time(settings, all, size);
+    if (settings.memory) ask_memory(settings, all, size);
 }
 
 }  // namespace
@@ -215,10 +227,12 @@ int main(int argc, char** argv) {
         const std::string word = argv[i];
         const auto value = [&] { return std::string(i + 1 < argc ? argv[++i] : ""); };
         if (word == "--quick") settings.quick = true;
+        else if (word == "time") settings.memory = false;
+        else if (word == "memory") settings.time = false;
         else if (word == "--scene") settings.scene = value();
         else if (word == "--cache") settings.cache = value();
         else if (word == "--pictures") settings.pictures = value();
-        else return std::fprintf(stderr, "bench_geometry: '%s' is not an option; --quick, --scene NAME, --cache FOLDER, --pictures FOLDER work\n", word.c_str()), 2;
+        else return std::fprintf(stderr, "bench_geometry: '%s' is not an option; time, memory, --quick, --scene NAME, --cache FOLDER, --pictures FOLDER work\n", word.c_str()), 2;
     }
     burin::bench::run(settings);
 }
