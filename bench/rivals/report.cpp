@@ -31,10 +31,12 @@ std::string median_of(std::vector<double> values) {
 
 std::string least_of(const std::vector<double>& values) { return values.empty() ? "-" : number_of(*std::min_element(values.begin(), values.end())); }
 
+const char* kind_of(bool grooves) { return grooves ? "grooves" : "ridges and CSG"; }
+
 void print_json(std::FILE* file, const ViewResult& result, const char* technique, const std::string& setting, const RivalSettings* rival,
                 const Trial& trial, double plain, double blocks) {
-    std::fprintf(file, "{\"scene\": \"%s\", \"view\": \"%s\", \"technique\": \"%s\", \"setting\": \"%s\", ", result.scene.c_str(),
-                 result.view.c_str(), technique, setting.c_str());
+    std::fprintf(file, "{\"scene\": \"%s\", \"view\": \"%s\", \"kind\": \"%s\", \"technique\": \"%s\", \"setting\": \"%s\", ",
+                 result.scene.c_str(), result.view.c_str(), kind_of(result.grooves), technique, setting.c_str());
     if (rival != nullptr)
         std::fprintf(file, "\"size\": %d, \"samples\": %d, \"steps\": %d, \"places\": \"%s\", \"bias\": %g, ", rival->size,
                      rival->samples, rival->steps, rival->places == Places::grid ? "grid" : "hammersley", double(rival->bias));
@@ -202,7 +204,7 @@ void Report::print_summary() const {
             blocks.push_back(result.matched().bytes.blocks / result.bytes.stored);
         }
         if (ratios.empty()) continue;
-        std::printf("| %s | %zu | %zu | %s | %s | %s, %s | %s, %s | %s, %s |\n", grooves ? "grooves" : "ridges and CSG", ratios.size(),
+        std::printf("| %s | %zu | %zu | %s | %s | %s, %s | %s, %s | %s, %s |\n", kind_of(grooves), ratios.size(),
                     matched.size(), median_of(ratios).c_str(), least_of(reached).c_str(), median_of(matched).c_str(), least_of(matched).c_str(),
                     median_of(plain).c_str(), least_of(plain).c_str(), median_of(blocks).c_str(), least_of(blocks).c_str());
     }
