@@ -58,7 +58,8 @@ def machine():
 def commit():
     """Of what is measured: results that lie about in docs are no change of it."""
     def git(*words):
-        return subprocess.run(["git", "-C", ROOT, *words], stdout=subprocess.PIPE, check=True).stdout.decode().strip()
+        done = subprocess.run(["git", "-C", ROOT, *words], stdout=subprocess.PIPE, check=False)
+        return done.stdout.decode().strip() if done.returncode == 0 else "unknown"
     changed = git("status", "--porcelain", "--untracked-files=no", "--", ":/", ":!/docs")
     return git("rev-parse", "--short=7", "HEAD") + (" and changes" if changed else "")
 

@@ -5,7 +5,7 @@ import html
 import math
 
 WIDE, HIGH = 250, 170            # of a panel's inside
-LEFT, GAP, TOP, BETWEEN = 56, 26, 64, 54
+LEFT, GAP, TOP, BETWEEN = 56, 26, 72, 54
 STYLES = {                       # colour, width of the line, whether points are squares
     "burin": ("#d55e00", 2.4, True),
     "normal mapping": ("#8a8a8a", 1.5, False),
@@ -39,10 +39,10 @@ def milliseconds(value):
 
 
 def size_text(value):
-    for step, name in ((1e9, "GB"), (1e6, "MB"), (1e3, "kB")):
+    for step, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
         if value >= step:
             return f"{value / step:g} {name}"
-    return f"{value:g} B"
+    return f"{value:g}"
 
 
 def logarithmic_axis(label, values, unit):
@@ -57,10 +57,17 @@ def linear_axis(label, values):
     return Axis(label, low, high)
 
 
+def decimal_ticks(axis):
+    """Powers of ten; over less than two of them also twice and five times these."""
+    factors = (1, 2, 5) if axis.high - axis.low < 2 else (1,)
+    values = [factor * 10.0 ** power for power in range(math.floor(axis.low), math.ceil(axis.high)) for factor in factors]
+    return [value for value in values if axis.low <= math.log10(value) <= axis.high]
+
+
 def front(points):
     """What no cheaper point is as good as: from the cheapest on, every one that is better than all before."""
     best, kept = -math.inf, []
-    for x, y in sorted(points):
+    for x, y in sorted(points, key=lambda point: (point[0], -point[1])):
         if y > best:
             best = y
             kept.append((x, y))
@@ -87,10 +94,10 @@ class Frame:
     def draw_axes(self, with_labels):
         right, bottom = self.left + WIDE, self.top + HIGH
         yield tag("rect", x=self.left, y=self.top, width=WIDE, height=HIGH, fill="#fff", stroke="#bbb")
-        for power in range(math.ceil(self.x.low), math.floor(self.x.high) + 1):
-            across = self.at((10.0 ** power, 0))[0]
+        for value in decimal_ticks(self.x):
+            across = self.at((value, 0))[0]
             yield tag("path", d=f"M{across:.1f} {self.top:.1f}V{bottom:.1f}", stroke="#e4e4e4")
-            yield tag("text", self.x.unit(10.0 ** power), x=across, y=bottom + 14, text_anchor="middle")
+            yield tag("text", self.x.unit(value), x=across, y=bottom + 14, text_anchor="middle")
         step = 10 if self.y.high - self.y.low > 25 else 5
         for value in range(step * math.ceil(self.y.low / step), int(self.y.high) + 1, step):
             height = self.at((1, value))[1]
@@ -117,10 +124,9 @@ class Frame:
         """All points, pale; those that are worth their price, joined."""
         colour, width, _ = STYLES[name]
         best = front(points)
-        for point in points:
-            if point not in best:
-                x, y = self.at(point)
-                yield tag("circle", cx=x, cy=y, r="1.4", fill=colour, opacity="0.3")
+        others = [self.at(point) for point in points if point not in best]
+        if others:
+            yield tag("path", d="".join(f"M{x:.1f} {y:.1f}h0" for x, y in others), stroke=colour, stroke_width="2.8", stroke_linecap="round", opacity="0.3")
         places = [self.at(point) for point in best]
         yield tag("polyline", points=" ".join(f"{x:.1f},{y:.1f}" for x, y in places), fill="none", stroke=colour, stroke_width=width, opacity="0.9")
         for x, y in places:
@@ -141,24 +147,24 @@ def legend(names, remark, left):
         yield tag("text", name, x=x + 8, y=42)
         x += 28 + 6.1 * len(name)
     if remark:
-        yield tag("text", remark, x=x, y=42, fill="#666")
+        yield tag("text", remark, x=float(left - 4), y=60, fill="#666")
 
 
-def picture(title, rows, remark=""):
-    """Rows of (panels, x axis, y axis), one below the other; the axis of heights is labelled on the left."""
-    most = max(len(panels) for panels, _, _ in rows)
-    width, height = LEFT + most * (WIDE + GAP), TOP + len(rows) * (HIGH + BETWEEN)
-    names = [name for name in STYLES if any(name in panel.series for panels, _, _ in rows for panel in panels)]
-    if most == 1 and len(names) > 3:
-        width = max(width, 760)
+def picture(title, rows, y, remark=""):
+    """Rows of (panel, x axis), one below the other; the axis of heights is common and labelled on the left."""
+    panels = [panel for row in rows for panel, _ in row]
+    names = [name for name in STYLES if any(name in panel.series for panel in panels)]
+    top = TOP + (18 if remark else 0)
+    width = max(LEFT + max(map(len, rows)) * (WIDE + GAP), LEFT + GAP + sum(28 + 6 * len(name) for name in names), LEFT + GAP + int(6.2 * len(remark)))
+    height = top + len(rows) * (HIGH + BETWEEN) - 12
     out = [f"<svg xmlns='http://www.w3.org/2000/svg' width='{width}' height='{height}' viewBox='0 0 {width} {height}' "
            "font-family='DejaVu Sans, sans-serif' font-size='11' fill='#222'>",
            tag("rect", width="100%", height="100%", fill="#fff"),
            tag("text", title, x=LEFT, y=20, font_size="14", font_weight="bold")]
     out += legend(names, remark, LEFT + 4)
-    for row, (panels, x, y) in enumerate(rows):
-        for column, panel in enumerate(panels):
-            frame = Frame(LEFT + column * (WIDE + GAP), TOP + 10 + row * (HIGH + BETWEEN), x, y)
+    for index, row in enumerate(rows):
+        for column, (panel, x) in enumerate(row):
+            frame = Frame(LEFT + column * (WIDE + GAP), top + index * (HIGH + BETWEEN), x, y)
             out += frame.draw(panel, column == 0)
     return "\n".join(out) + "\n</svg>\n"
 
@@ -166,15 +172,17 @@ def picture(title, rows, remark=""):
 def rivals_plot(scene, views):
     """Error against time and against bytes, `views`: [(view, lines)]."""
     every = [line for _, lines in views for line in lines]
-    y = linear_axis("PSNR, dB", [line["dB"] for line in every])
     time = logarithmic_axis("ms of processor time", [line["ms"] for line in every], milliseconds)
     size = logarithmic_axis("bytes of maps or of burin's textures", [line["bytes"] for line in every], size_text)
     rows = []
     for first in range(0, len(views), 3):
         some = views[first:first + 3]
-        rows.append(([rivals_panel(f"{view}: time", lines, "ms") for view, lines in some], time, y))
-        rows.append(([rivals_panel(f"{view}: bytes", lines, "bytes") for view, lines in some], size, y))
-    return picture(f"{scene}: error against time and bytes", rows, "ring and dashes: burin's default; pale: other settings tried")
+        rows.append([(rivals_panel(f"{view}, by time", lines, "ms"), time) for view, lines in some])
+        rows.append([(rivals_panel(f"{view}, by bytes", lines, "bytes"), size) for view, lines in some])
+    if len(views) == 1:
+        rows = [rows[0] + rows[1]]
+    return picture(f"{scene}: error against time and bytes", rows, linear_axis("PSNR, dB", [line["dB"] for line in every]),
+                   "Joined: settings that nothing cheaper equals; pale: others. Ring and dashes: burin's default.")
 
 
 def rivals_panel(title, lines, across):
@@ -194,4 +202,5 @@ def atrium_plot(table):
         series.setdefault(name, []).append((float(row[table.column("ms")]), float(row[table.column("PSNR")])))
     points = [point for some in series.values() for point in some]
     x = logarithmic_axis("ms of processor time", [point[0] for point in points], milliseconds)
-    return picture("Atrium", [([Panel("error against time", series)], x, linear_axis("PSNR, dB", [point[1] for point in points]))])
+    panel = Panel("400 x 300 pixels" if "400 x 300" in table.intro else "200 x 150 pixels", series)
+    return picture("Atrium: error against time", [[(panel, x)]], linear_axis("PSNR, dB", [point[1] for point in points]))
