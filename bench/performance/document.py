@@ -46,14 +46,14 @@ def own_2008(runs, scene):
     """Ratios of time and bytes, geometry's over the reference renderer's."""
     times, memory = merged(runs.get("geometry", []), "Time at equal error", 2), merged(runs.get("geometry", []), "Memory at equal error", 1)
     of_scene = lambda table: [row for row in table.rows if row[0] == scene] if table else []
-    ratios = [judge.number(row[6]) for row in of_scene(times)]
-    time = f"{judge.plain(statistics.median_high(ratios))}" if ratios else judge.NOT_MEASURED
-    grid = [row for row in of_scene(memory)]
+    ratios = [statistics.median_high(judge.number(row[column]) for row in of_scene(times)) for column in (6, 9) if of_scene(times)]
+    time = " / ".join(map(judge.plain, ratios)) or judge.NOT_MEASURED
+    grid = of_scene(memory)
     return time, f"{grid[0][5]} (exact mesh), {grid[0][-1]} (grid)" if grid else judge.NOT_MEASURED
 
 
 def table_2008(runs):
-    out = ["| figure | scene | paper: method | geometry | relief map | paper: geometry over method, time | bytes | here: time, uniform, median of views | bytes |",
+    out = ["| figure | scene | paper: method | geometry | relief map | paper: geometry over method, time | bytes | here: time, uniform / adaptive, median of views | bytes |",
            "|---|---|--:|--:|--:|--:|--:|--:|--:|"]
     for scene, (figure, seconds, kilobytes, geometry, geometry_kb, relief, relief_kb) in PAPER_2008.items():
         time, size = own_2008(runs, scene)
