@@ -84,7 +84,9 @@ def draw_plots(runs, folder, link):
     atrium = merged(runs.get("atrium", []), "Atrium", 1)
     if atrium is not None:
         write(os.path.join(folder, "atrium.svg"), plots.atrium_plot(atrium))
-    return {"rivals plots": "\n\n".join(pictures) or "Not measured.",
+    grid = sorted(name for name in os.listdir(folder) if name.startswith("grid_") and name.endswith(".svg"))
+    return {"grid plots": "\n\n".join(f"![{name[5:-4]}: time against cell size]({link}/{name})" for name in grid) or "Not drawn in these runs.",
+            "rivals plots": "\n\n".join(pictures) or "Not measured.",
             "atrium plot": f"![Atrium: error against time]({link}/atrium.svg)" if atrium else "Not measured."}
 
 

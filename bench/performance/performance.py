@@ -37,7 +37,7 @@ class Part:
 
 
 PARTS = {
-    "rivals": Part("rivals/bench_rivals", lines=True),
+    "rivals": Part("rivals/bench_rivals", quick=["--quick", "--finest", "4096"], lines=True),
     "geometry": Part("geometry/bench_geometry"),
     "reference": Part("runtime/bench_runtime", ["reference"]),
     "atrium": Part("runtime/bench_runtime", ["atrium"], scenes=False),
