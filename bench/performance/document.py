@@ -2,7 +2,6 @@
 
 import os
 import re
-import statistics
 
 import judge
 import plots
@@ -46,8 +45,8 @@ def own_2008(runs, scene):
     """Ratios of time and bytes, geometry's over the reference renderer's."""
     times, memory = merged(runs.get("geometry", []), "Time at equal error", 2), merged(runs.get("geometry", []), "Memory at equal error", 1)
     of_scene = lambda table: [row for row in table.rows if row[0] == scene] if table else []
-    ratios = [statistics.median_high(judge.number(row[column]) for row in of_scene(times)) for column in (6, 9) if of_scene(times)]
-    time = " / ".join(map(judge.plain, ratios)) or judge.NOT_MEASURED
+    ratios = [sorted((row[column] for row in of_scene(times)), key=judge.number) for column in (6, 9) if of_scene(times)]
+    time = " / ".join(some[len(some) // 2] for some in ratios) or judge.NOT_MEASURED
     grid = of_scene(memory)
     return time, f"{grid[0][5]} (exact mesh), {grid[0][-1]} (grid)" if grid else judge.NOT_MEASURED
 
