@@ -181,7 +181,8 @@ std::vector<Prepared> prepare(const Settings& settings) {
             continue;
         }
         const auto grid = build_grid(subject->prepared.resolved);
-        auto tile = mesh::mesh_pattern(subject->prepared.resolved, *grid);
+        // A tenth of the default: flat pieces of bends must not show in the shading.
+        auto tile = mesh::mesh_pattern(subject->prepared.resolved, *grid, {.tolerance = 1e-4 * subject->width});
         if (tile) out.push_back({std::move(*subject), std::move(*tile)});
         else std::printf("%s: %s\n", entry.name, tile.error().message.c_str());
     }
