@@ -131,7 +131,7 @@ std::vector<OptionSpec> make_table() {
         {"--correct-depth", "render", flag, "", "", "", 0, 0, "", false,
          "other meshes are hidden by the relief and not by the mesh that carries it"},
         {"--samples", "render", integer, "COUNT", "", plain(render.samples), 1, 256, "", false,
-         "samples per pixel, rounded up to a square number (2 stays 2); with --top one unless given"},
+         "samples per pixel, rounded up to a square number (2 stays 2); with --antialiasing points four unless given"},
         {"--antialiasing", "render", choice, "WHICH", "", "regions", 0, 0, "regions|points", false,
          "filter features as areas, by rays where they meet; or by rays alone"},
         {"--rays", "render", integer, "COUNT", "", plain(render.rays), 4, 64, "", false,

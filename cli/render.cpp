@@ -99,6 +99,8 @@ RenderOptions render_options(const Arguments& arguments) {
     options.correct_depth = arguments.flag("--correct-depth");
     options.samples = arguments.integer("--samples");
     options.antialiasing = arguments.text("--antialiasing") == "points" ? Antialiasing::points : Antialiasing::regions;
+    // A single ray shows no edge; areas do.
+    if (options.antialiasing == Antialiasing::points && !arguments.given("--samples")) options.samples = 4;
     options.rays = arguments.integer("--rays");
     options.backend = backend_of(arguments);
     return options;

@@ -34,6 +34,7 @@ void ask_energy(const Settings& settings);
 void ask_work(const Settings& settings);
 void ask_features(const Settings& settings);
 void ask_grid(const Settings& settings);
+void ask_cost(const Settings& settings);
 void ask_reference(const Settings& settings);
 void ask_atrium(const Settings& settings);
 void ask_tables(const Settings& settings);

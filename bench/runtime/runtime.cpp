@@ -2,7 +2,7 @@
 //
 //     bench_runtime [QUESTION ...] [--scene NAME] [--setting NAME] [--quick] [--pictures FOLDER] [--cache FOLDER] [--backend egl]
 //
-// Questions: hits holes pictures memory flicker energy work features grid reference atrium tables; without any, all of them. Tables in Markdown go to standard output.
+// Questions: hits holes pictures memory flicker energy work features grid reference atrium tables cost; without any, all of them. Tables in Markdown go to standard output.
 #include <cstdio>
 #include <string>
 #include <thread>
@@ -50,7 +50,7 @@ struct Question {
 constexpr Question kQuestions[] = {{"hits", ask_hits},     {"holes", ask_holes},   {"pictures", ask_pictures}, {"memory", ask_memory},
                                     {"flicker", ask_flicker}, {"energy", ask_energy}, {"work", ask_work},
                                     {"features", ask_features}, {"grid", ask_grid}, {"reference", ask_reference},
-                                    {"atrium", ask_atrium},   {"tables", ask_tables}};
+                                    {"atrium", ask_atrium},   {"tables", ask_tables},   {"cost", ask_cost}};
 
 int usage(const std::string& word) {
     std::fprintf(stderr, "bench_runtime: error: '%s' is no question or option; questions:", word.c_str());

@@ -20,6 +20,7 @@ void measure(const Settings& settings, const Subject& subject) {
         const Asset asset = asset_of(subject, extent_of(view, subject.prepared.resolved));
         RenderOptions options = options_of(view, subject.prepared.resolved.size);
         options.backend = settings.backend;
+        options.rays = 4;
         for (const Way& way : kWays) {
             options.antialiasing = way.kind;
             const auto counts = count_fetches(asset, options);

@@ -7,6 +7,9 @@
 // Part of the pixel that may be drawn as if the features in it did not know of each other.
 #define BURIN_LEAST_AREA 0.03f
 #define BURIN_MAX_REGION_CELLS 64
+// From this fullness of a pixel on the prefilter takes over by degrees, from the next on alone.
+#define BURIN_LEAST_FULLNESS 0.4f
+#define BURIN_MOST_FULLNESS 0.9f
 #define BURIN_MAX_REGION_ELEMENTS 64
 
 // A feature's part in one question.
@@ -110,9 +113,26 @@ struct BurinShown {
     float wide;
     float spread;
     uint marks;  // places that its ends want rays for
+    bool bent;   // stripes do not describe it
 };
 
 // Whether the element shows.
+
+// Whether ray or light meet the feature elsewhere, or in another size, than stripes tell. `light_way`: metres that the light moves over
+// the plane within the relief.
+bool burin_is_bent(BurinShown shown, vec2 slope, vec2 light_slope, float light_way, float radius) {
+    BurinElement e = shown.e;
+    // A ray that runs along a bend for long meets it elsewhere than the stripes are.
+    float curvature = abs(burin_bend(e, shown.stretch, slope, light_slope).curvature);
+    float waves = e.waved ? abs(e.argument.y) * (shown.spread + radius) / max(e.extent, 1.0e-20f) : 0.0f;
+    // And light that runs along a taper passes a profile of another size.
+    float taper = max(abs(e.scales.y - e.scales.x), abs(e.scales.w - e.scales.z)) / max(e.extent, 1.0e-20f);
+    float grown = taper * (shown.spread + light_way) / min(shown.stretch.scales.x, shown.stretch.scales.y);
+    // By how much it is off counts the less, the smaller the feature is in the pixel.
+    float coarse = max(radius / shown.wide, 1.0f);
+    return max(max(curvature * shown.spread, waves), grown) > BURIN_MOST_BEND * coarse * coarse;
+}
+
 bool burin_shows(BurinElement e, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows,
                  BURIN_OUT(BurinShown) shown) {
     BurinStyle style = burin_style(e.style);
@@ -145,7 +165,9 @@ bool burin_shows(BurinElement e, BurinRay ray, BurinFootprint footprint, vec2 li
     shown.lean = lean;
     shown.wide = wide;
     shown.spread = reach.spread;
-    return shown.stretch.limits.y >= shown.stretch.limits.x;
+    bool shows = shown.stretch.limits.y >= shown.stretch.limits.x;
+    shown.bent = shows && burin_is_bent(shown, ray.slope, light_slope, length(light_way), footprint.radius);
+    return shows;
 }
 
 // The cell of the map at a place of the plane of cells, which repeats.
@@ -198,16 +220,6 @@ void burin_add_shown(BurinShown shown, BurinRay ray, BurinFootprint footprint, v
         mask = mask | burin_add_stripe(e, shown.style, stretch, footprint, ray.slope, light_slope, shadows, region);
         if (i + 1 >= pieces) break;
     }
-    vec2 light_way = light_slope * (shadows ? burin_map.drop_range.y - burin_map.drop_range.x : 0.0f);
-    // A ray that runs along a bend for long meets it elsewhere than the stripes are.
-    float curvature = abs(burin_bend(e, stretch, ray.slope, light_slope).curvature);
-    float waves = e.waved ? abs(e.argument.y) * (shown.spread + footprint.radius) / max(e.extent, 1.0e-20f) : 0.0f;
-    // And light that runs along a taper passes a profile of another size.
-    float taper = max(abs(e.scales.y - e.scales.x), abs(e.scales.w - e.scales.z)) / max(e.extent, 1.0e-20f);
-    float grown = taper * (shown.spread + length(light_way)) / min(stretch.scales.x, stretch.scales.y);
-    // By how much it is off counts the less, the smaller the feature is in the pixel.
-    float coarse = max(footprint.radius / shown.wide, 1.0f);
-    if (max(max(curvature * shown.spread, waves), grown) > BURIN_MOST_BEND * coarse * coarse) region.bent = true;
     // Features over each other; thin ones hardly are.
     float area = region.strip_area;
     region.strip_area = 0.0f;
@@ -316,7 +328,7 @@ void burin_gather_cell(vec2 index, BurinRay ray, float radius, float light_way) 
     }
 }
 
-// Gathers for a pixel, before burin_region is asked about it and, where the whole was complete, about parts of it.
+// Gathers for a pixel, before burin_region is asked about it.
 void burin_gather(BurinSpan span, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows) {
     float light_way = shadows ? length(light_slope) * (burin_map.drop_range.y - burin_map.drop_range.x) : 0.0f;
     burin_gathered.count = 0;
@@ -334,7 +346,6 @@ BurinRegion burin_no_region(vec3 ground, float fullness) {
     region.ground = ground;
     region.covered = 0u;
     region.special = 0u;
-    region.bent = false;
     region.deep_shadows = 0u;
     region.deep_shadow = 0u;
     region.thrown = 0u;
@@ -346,20 +357,21 @@ BurinRegion burin_no_region(vec3 ground, float fullness) {
 }
 
 // `ground` is the colour of lit ground. The ray passes the object surface at the pixel's centre. Where fullness is 1 or more the
-// pixel spans too much to be looked through, and the rest says nothing. Asks what was gathered; `whole`: and keeps of it what shows,
-// for the pixel's parts.
-BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, vec3 ground, BurinSpan span, bool whole) {
+// pixel spans too much to be looked through, and the rest says nothing. Asks what was gathered.
+BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows, vec3 ground, BurinSpan span) {
     BurinRegion region = burin_no_region(ground, span.fullness);
     if (span.fullness > 1.0f) return region;
     if (!burin_gathered.complete || !span.inside) {
         // Too many to tell apart: from near by rays, from far away by the prefilter.
         region.special = 0xffffu;
-        if (span.inside && region.fullness > 0.4f) region.fullness = 1.0f;
+        if (span.inside && region.fullness > BURIN_LEAST_FULLNESS) region.fullness = 1.0f;
         return region;
     }
+    // Where rays will be asked nothing more need be known, unless the prefilter might be asked instead.
+    bool few = region.fullness <= BURIN_LEAST_FULLNESS && float(burin_gathered.count) <= BURIN_LEAST_FULLNESS * float(BURIN_MAX_REGION_ELEMENTS);
+    bool given_up = false;
     BurinShown shown;
     int j = 0;
-    int kept = 0;
     for (int n = 0; n < BURIN_MAX_REGION_ELEMENTS; ++n) {
         bool shows = false;
         for (int k = 0; k < BURIN_MAX_REGION_ELEMENTS; ++k) {
@@ -368,20 +380,15 @@ BurinRegion burin_region(BurinRay ray, BurinFootprint footprint, vec2 light_slop
             vec2 home = burin_gathered.homes[j];
             BurinElement e = burin_element(reference, ray.origin, burin_cell_centre(home));
             shows = burin_shows(e, ray, footprint, light_slope, shadows, shown);
-            region.special = region.special | shown.marks;
-            if (whole && (shows || shown.marks != 0u)) {
-                burin_gathered.references[kept] = reference;
-                burin_gathered.homes[kept] = home;
-                ++kept;
-            }
+            region.special = region.special | shown.marks | (shown.bent ? 0xffffu : 0u);
             ++j;
-            if (shows || j >= burin_gathered.count) break;
+            given_up = few && region.special != 0u;
+            if (shows || given_up || j >= burin_gathered.count) break;
         }
-        if (shows) burin_add_shown(shown, ray, footprint, light_slope, shadows, region);
-        if (j >= burin_gathered.count) break;
+        if (shows && !given_up) burin_add_shown(shown, ray, footprint, light_slope, shadows, region);
+        given_up = few && region.special != 0u;
+        if (given_up || j >= burin_gathered.count) break;
     }
-    if (whole) burin_gathered.count = kept;
-    if (region.bent) region.special = 0xffffu;
     region.fullness = max(region.fullness, float(region.elements) / float(BURIN_MAX_REGION_ELEMENTS));
     // Where a map ends, its ground stands against the light that falls into a feature.
     vec2 light_way = abs(light_slope) * ((burin_map.drop_range.y - burin_map.drop_range.x) * (shadows ? 1.0f : 0.0f));

@@ -11,7 +11,6 @@ struct BurinRegion {
     vec3 ground;   // colour of lit ground
     uint covered;  // places (burin_quad_mask) that a feature or its shadow covers
     uint special;  // places that stripes do not describe: two features over each other, ends
-    bool bent;     // nor do they describe a feature that shows, nor would they in parts of the pixel
     uint deep_shadows;   // places where shadows of the elements so far fall on whatever is lower than their ground
     uint deep_shadow;     // the same of the element at hand
     uint thrown;          // places of its shadow on the ground

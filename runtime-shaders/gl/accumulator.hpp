@@ -16,6 +16,9 @@ inline std::uint8_t to_srgb(float linear) {
     return std::uint8_t(s * 255.0f + 0.5f);
 }
 
+// How bright the eye sees a linear colour; a gamma of 2 stands in for it.
+inline float brightness_of(const float* linear) { return std::sqrt(linear[0] + 2.0f * linear[1] + linear[2]) * 0.5f; }
+
 class Accumulator {
   public:
     Accumulator(int width, int height)
@@ -33,8 +36,7 @@ class Accumulator {
             if (wanted_[i] == 0) continue;
             for (std::size_t k = 0; k < 4; ++k) sum_[4 * i + k] += pixels[4 * i + k];
             samples_[i] += 1.0f;
-            // A gamma of 2 stands in for the eye.
-            const float seen = std::sqrt(pixels[4 * i] + 2.0f * pixels[4 * i + 1] + pixels[4 * i + 2]) * 0.5f;
+            const float seen = brightness_of(&pixels[4 * i]);
             low_[i] = std::min(low_[i], seen);
             high_[i] = std::max(high_[i], seen);
         }

@@ -284,4 +284,12 @@ std::vector<float> FloatTarget::read(int color) const {
     return pixels;
 }
 
+std::vector<float> FloatTarget::read_depths() const {
+    std::vector<float> depths(std::size_t(width_) * std::size_t(height_));
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl_.ReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+    return depths;
+}
+
 }  // namespace burin::gl

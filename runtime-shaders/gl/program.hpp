@@ -92,6 +92,8 @@ class FloatTarget {
     void bind() const;
     // Four floats per pixel, lower row first.
     std::vector<float> read(int color) const;
+    // One depth per pixel, [0, 1]. Requires: it has depth.
+    std::vector<float> read_depths() const;
 
   private:
     FloatTarget(const Functions& gl, int width, int height) : gl_(gl), width_(width), height_(height) {}

@@ -12,7 +12,9 @@
 #include "gl/accumulator.hpp"
 #include "gl/camera.hpp"
 #include "gl/look_textures.hpp"
+#include "gl/marked_rays.hpp"
 #include "gl/mesh.hpp"
+#include "gl/outlines.hpp"
 #include "gl/pixel_filter.h"
 #include "gl/prepared_asset.hpp"
 #include "gl/program.hpp"
@@ -126,8 +128,8 @@ class WantedTexture {
     GLuint name_ = 0;
 };
 
-// Rays per side of a sample: an even number, so that they fall into quarters.
-int ray_side(const RenderOptions& options) { return 2 * int(std::ceil(std::sqrt(double(options.rays)) / 2.0 - 1e-9)); }
+// Rays per side of a sample: an even number, so that the first four spread over its quarters.
+int ray_side(int rays) { return 2 * int(std::ceil(std::sqrt(double(rays)) / 2.0 - 1e-9)); }
 
 // Draws samples of one picture: all in one run of a shader, or areas and rays in runs of two.
 class Painter {
@@ -136,20 +138,19 @@ class Painter {
     Painter(const gl::Functions& gl, const Asset& asset, const RenderOptions& options, const gl::FloatTarget& target, bool counted = false)
         : gl_(gl), asset_(asset), options_(options), target_(target), counted_(counted),
           scene_(load_scene(gl, asset, options)), view_(place_camera(asset, options)), wanted_(gl),
-          samples_(gl::sample_grid(options.samples, options.antialiasing == Antialiasing::regions)) {}
+          samples_(gl::sample_grid(options.samples, options.antialiasing == Antialiasing::regions)), ray_side_(ray_side(options.rays)) {}
 
     const std::vector<Vec2>& places() const { return samples_.places; }
 
     // Linear colours of the pixels that are wanted, lower row first; `place` within the pixel.
     Result<std::vector<float>> draw_sample(Vec2 place, const std::vector<std::uint8_t>& wanted) {
-        matrix_ = glm::mat4(projection(view_, options_, place.x, place.y));
         sample_ = place;
         const bool regions = options_.antialiasing == Antialiasing::regions;
         const bool marked = regions && !options_.one_run;
         const int filter = marked ? FILTER_MARKED : regions ? FILTER_REGIONS : FILTER_RAYS;
         auto drawn = draw(filter, {}, wanted);
         if (!drawn || !marked) return drawn;
-        if (Status added = add_marked_rays(*drawn); !added) return added.error();
+        if (Status replaced = replace_marked(*drawn); !replaced) return replaced.error();
         return drawn;
     }
 
@@ -167,8 +168,8 @@ class Painter {
         set_view(*built, view_, options_);
         if (options_.environment)
             scene_.environment->bind(*built, options_.environment->rotation, options_.environment->strength);
-        built->set("side", ray_side(options_));
-        built->set("cells", ray_side(options_) * samples_.side);
+        built->set("side", ray_side_);
+        built->set("cells", ray_side_ * samples_.side);
         built->set("pixel_part", float(samples_.part.x), float(samples_.part.y));
         built->set("wanted", 2);
         return &*built;
@@ -180,29 +181,31 @@ class Painter {
         const gl::Program& program = **chosen;
         program.use();
         wanted_.set(wanted, options_.width, options_.height);
-        gl_.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix_));
-        program.set("ray_place", float(place.middle.x), float(place.middle.y));
+        // What is moved to the right is seen from a place further left.
+        const Vec2 moved{sample_.x - place.middle.x * samples_.part.x, sample_.y - place.middle.y * samples_.part.y};
+        const glm::mat4 matrix(projection(view_, options_, moved.x, moved.y));
+        gl_.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix));
         program.set("ray_shift", float(place.shift.x), float(place.shift.y));
-        const gl::RayCell first = gl::first_ray_cell(ray_side(options_), sample_, samples_.side);
+        const gl::RayCell first = gl::first_ray_cell(ray_side_, sample_, samples_.side);
         program.set("first_cell", float(first.column), float(first.row));
         draw_pass(gl_, program, asset_, scene_);
         return target_.read(0);
     }
 
-    // Adds the rays that `pixels` asks for in its fourth channel.
-    Status add_marked_rays(std::vector<float>& pixels) {
-        std::vector<std::uint8_t> marks(pixels.size() / 4);
-        for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = std::uint8_t(pixels[4 * i + 3]);
-        if (std::all_of(marks.begin(), marks.end(), [](std::uint8_t mark) { return mark == 0; })) return Done{};
-        for (const gl::RayPlace& place : gl::ray_places(ray_side(options_), sample_, samples_.side)) {
-            const auto found = draw(FILTER_RAYS, place, marks);
+    // Puts the mean of rays where `pixels` asks for them in its fourth channel, and, unless several samples do that, where a mesh ends or
+    // has an edge: of four, and of all where these do not agree.
+    Status replace_marked(std::vector<float>& pixels) {
+        if (samples_.places.size() == 1) gl::mark_outlines(target_.read_depths(), options_.width, options_.height, pixels);
+        gl::MarkedRays rays(options_.width, options_.height, pixels);
+        const std::vector<gl::RayPlace> places = gl::ray_places(ray_side_, sample_, samples_.side);
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            if (k == 4) rays.keep_uneven();
+            if (!rays.any_wanted()) break;
+            const auto found = draw(FILTER_RAYS, places[k], rays.wanted());
             if (!found) return found.error();
-            const int quarter = (place.middle.x < 0.0 ? 0 : 1) + (place.middle.y < 0.0 ? 0 : 2);
-            const float share = 1.0f / float(ray_side(options_) * ray_side(options_));
-            for (std::size_t i = 0; i < marks.size(); ++i)
-                if ((marks[i] >> quarter & 1) != 0)
-                    for (std::size_t c = 0; c < 3; ++c) pixels[4 * i + c] += (*found)[4 * i + c] * share;
+            rays.add(*found, k);
         }
+        rays.put_means(pixels);
         return Done{};
     }
 
@@ -215,7 +218,7 @@ class Painter {
     View view_;
     WantedTexture wanted_;
     gl::SampleGrid samples_;
-    glm::mat4 matrix_{1.0f};
+    int ray_side_;
     Vec2 sample_{};  // at hand
     std::array<std::optional<gl::Program>, 3> programs_;  // by FILTER_*
 };

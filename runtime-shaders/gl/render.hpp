@@ -75,14 +75,14 @@ struct RenderOptions {
     // depth, agree with it. Costs the early depth test: what is hidden is drawn all the same.
     bool correct_depth = false;
     // Per pixel, [1, 256], rounded up to a square number; 2 stays 2. Four come first; the rest go where those or their
-    // neighbours differ by a step of the picture's 8 bits.
-    int samples = 4;
+    // neighbours differ by a step of the picture's 8 bits. One is enough for regions; points want 4 or 16.
+    int samples = 1;
     Antialiasing antialiasing = Antialiasing::regions;
-    // With regions: rays per sample where features meet, 4 or 16; [4, 64], rounded up to an even square. With points every
-    // sample is one ray.
-    int rays = 4;
-    // Everything in one run of the shader, as an engine does it. Otherwise the rays of `rays` are runs of their own, which
-    // suits a CPU better: OSMesa ends a shader after 65535 turns of its loops.
+    // With regions: rays per sample where features meet, and with one sample where a mesh ends or has an edge; 4 or 16, [4, 64], rounded
+    // up to an even square. Of more than four the rest go where the four or those beside them differ. With points every sample is one ray.
+    int rays = 16;
+    // Everything in one run of the shader, as an engine does it: all rays where features meet, and none for the mesh's own edges. Otherwise
+    // the rays of `rays` are runs of their own, which suits a CPU better: OSMesa ends a shader after 65535 turns of its loops.
     bool one_run = false;
     std::array<float, 3> background = {0.93f, 0.93f, 0.93f};  // sRGB
     Backend backend = Backend::osmesa;

@@ -48,6 +48,12 @@ std::vector<RayPlace> ray_places(int side, Vec2 sample, int samples) {
         const Vec2 shift{shift_of(first.row + row, cells), shift_of(first.column + column, cells)};
         places.push_back({middle_of(column, row, side), shift * (1.0 / side)});
     }
+    // Quarters row by row.
+    constexpr Vec2 kFirst[] = {{-0.26, -0.13}, {0.13, -0.26}, {-0.13, 0.26}, {0.26, 0.13}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto nearer = [&](const RayPlace& a, const RayPlace& b) { return length(a.middle - kFirst[i]) < length(b.middle - kFirst[i]); };
+        std::iter_swap(places.begin() + std::ptrdiff_t(i), std::min_element(places.begin() + std::ptrdiff_t(i), places.end(), nearer));
+    }
     return places;
 }
 

@@ -7,10 +7,9 @@ uniform int shadows;
 uniform int side;           // rays per side of the pixel: even, 2 to 8
 uniform int cells;          // of the pixel, per side, one for each ray of all its samples
 uniform vec2 first_cell;    // of this sample
-uniform vec2 ray_place;     // of FILTER_RAYS, within the pixel, -0.5 to 0.5
-uniform vec2 ray_shift;     // and by how much it lies elsewhere at grazing angles
+uniform vec2 ray_shift;     // of FILTER_RAYS: by how much it lies beside the middle at grazing angles, in pixels
 uniform vec2 pixel_part;    // width and height of what is filtered, in pixels: below 1 where several pictures are averaged
-uniform highp sampler2D wanted;  // one texel per pixel, a bit per quarter: 0 where the picture needs no further sample
+uniform highp sampler2D wanted;  // one texel per pixel: 0 where the picture needs no further sample
 layout(location = 0) out vec4 color;
 
 vec2 light_slope;   // metres that the light moves over the plane per metre of fall
@@ -106,94 +105,38 @@ float shifted(vec2 slope) {
 
 #if PIXEL_FILTER != FILTER_RAYS
 
-// A pixel, or a quarter of one.
-struct Part {
-    BurinRay ray;
-    vec2 along_x;
-    vec2 along_y;
-};
-
-// Part 0 is the whole, 1 to 4 its quarters.
-Part part_of(BurinRay ray, vec2 along_x, vec2 along_y, int index) {
-    Part part;
-    part.ray = ray;
-    part.along_x = along_x;
-    part.along_y = along_y;
-    if (index == 0) return part;
-    part.along_x = along_x * 0.5;
-    part.along_y = along_y * 0.5;
-    part.ray.origin = ray.origin + part.along_x * (float((index - 1) % 2) - 0.5) + part.along_y * (float((index - 1) / 2) - 0.5);
-    return part;
-}
-
-// What areas say of a part.
+// What areas say of a pixel.
 struct Areas {
     vec3 color;
-    bool special;  // and that rays should be asked
-    bool bent;     // wherever in the part
-    bool far;      // it spans so many features that nothing else need be asked
+    bool special;  // rays should be asked instead
 };
 
-// `whole`: of the pixel. `gather`: what lies around must be gathered first.
-Areas areas_of(Part part, bool whole, bool gather) {
-    vec2 tile = floor(part.ray.origin / burin_map.size) * burin_map.size * float(burin_map.repeats);
-    float level = burin_cell(burin_cell_at(part.ray.origin - tile)).level;
-    vec2 place = part.ray.origin + part.ray.slope * level;
+Areas areas_of(BurinRay ray, vec2 along_x, vec2 along_y) {
+    vec2 tile = floor(ray.origin / burin_map.size) * burin_map.size * float(burin_map.repeats);
+    float level = burin_cell(burin_cell_at(ray.origin - tile)).level;
+    vec2 place = ray.origin + ray.slope * level;
     bool shadowed = shadows != 0 && light_above;
-    look_origin = part.ray.origin;
-    look_slope = part.ray.slope;
-    look_x = part.along_x;
-    look_y = part.along_y;
+    look_origin = ray.origin;
+    look_slope = ray.slope;
+    look_x = along_x;
+    look_y = along_y;
     along_look = true;
     ground_paint = paint_of(0u, look_at(vec3(0.0, 0.0, 1.0), level));
     vec3 ground = ground_color(level, 1.0);
-    BurinFootprint footprint = burin_footprint(part.along_x, part.along_y);
-    BurinSpan span = burin_span(part.ray, footprint, light_slope, shadowed, level);
-    if (gather) burin_gather(span, part.ray, footprint, light_slope, shadowed);
-    BurinRegion region = burin_region(part.ray, footprint, light_slope, shadowed, ground, span, whole);
+    BurinFootprint footprint = burin_footprint(along_x, along_y);
+    BurinSpan span = burin_span(ray, footprint, light_slope, shadowed, level);
+    burin_gather(span, ray, footprint, light_slope, shadowed);
+    BurinRegion region = burin_region(ray, footprint, light_slope, shadowed, ground, span);
     Areas areas;
     areas.color = ground + region.color;
     // The eye's straight ray meets the true one half way down; the light's begins on it.
-    bool bends = burin_bends(bend, part.ray.slope * 0.5) || (shadowed && burin_bends(bend, light_slope));
-    areas.bent = region.bent || bends;
-    areas.special = region.special != 0u || bends || meets_border(part.ray, part.along_x, part.along_y);
+    bool bends = burin_bends(bend, ray.slope * 0.5) || (shadowed && burin_bends(bend, light_slope));
     // From a pixel that spans many features to one that spans too many: the prefilter takes over by degrees.
-    float far = smoothstep(0.4, 0.9, region.fullness);
-    areas.far = far >= 1.0;
+    float far = smoothstep(BURIN_LEAST_FULLNESS, BURIN_MOST_FULLNESS, region.fullness);
     if (far > 0.0)
-        areas.color = mix(areas.color, ground + far_color(place, part.ray.slope, light_slope, shadowed, ground, uv_along_x, uv_along_y), far);
+        areas.color = mix(areas.color, ground + far_color(place, ray.slope, light_slope, shadowed, ground, uv_along_x, uv_along_y), far);
+    areas.special = far < 1.0 && (region.special != 0u || bends || meets_border(ray, along_x, along_y));
     return areas;
-}
-
-// Bits of the quarters that rays should be asked of, 1 << 1 to 1 << 4. The others add to `sum` and to the number of `parts`, the whole
-// pixel as four. `drop`: where the straight ray meets the true one.
-uint sum_areas(BurinRay straight, float drop, vec2 along_x, vec2 along_y, BURIN_INOUT(vec3) sum, BURIN_INOUT(float) parts) {
-    uint special = 0u;
-    stand_at(straight.origin + straight.slope * drop - bend_start, drop);
-    bool gather = true;
-    float asked = 0.0;
-    for (int i = 0; i <= 4; ++i) {
-        Areas said = areas_of(part_of(straight, along_x, along_y, i), i == 0, gather);
-        gather = i == 0 ? !burin_gathered.complete : gather;
-        // The whole pixel at once where its features do not meet; else its quarters, unless they cannot do better.
-        bool done = i == 0 && (said.far || !said.special);
-        if (i == 0 && !done && said.bent) break;
-        if (i > 0 && said.special) {
-            special = special | (1u << uint(i));
-            asked += 1.0;
-        }
-        if (done || (i > 0 && !said.special)) {
-            float share = done ? 4.0 : 1.0;
-            sum += said.color * share;
-            parts += share;
-        }
-        if (done || i == 4) break;
-    }
-    if (parts + asked == 4.0) return special;
-    // Bent, or not looked at to the end: a driver may end loops that turn too often (OSMesa after 65535 turns).
-    sum = vec3(0.0);
-    parts = 0.0;
-    return 30u;
 }
 
 #endif
@@ -205,76 +148,59 @@ float shift_of(int line) {
     return cells < LEAST_MOVED_SIDE ? 0.0 : (float(MOVED_TURN(line, cells)) + 0.5) / float(cells) - 0.5;
 }
 
-// Adds the mean colours of the parts asked for, by count x count rays each: one loop over the rays of them all.
-void sum_rays(BurinRay ray, vec2 along_x, vec2 along_y, uint asked, int count, BURIN_INOUT(vec3) sum, BURIN_INOUT(float) parts) {
+// Mean colour of side x side rays; w: 0 where all of them leave the object.
+vec4 rays_color(BurinRay ray, vec2 along_x, vec2 along_y) {
     vec4 met = vec4(0.0);
-    int k = 0;
-    for (int n = 0; n < 64; ++n) {
-        if (asked == 0u) break;
-        int index = burin_lowest_bit(asked);
-        Part part = part_of(ray, along_x, along_y, index);
-        look_x = part.along_x / float(count);
-        look_y = part.along_y / float(count);
-        vec2 own = vec2(float(k % count), float(k / count));
+    look_x = along_x / float(side);
+    look_y = along_y / float(side);
+    for (int k = 0; k < 64; ++k) {
+        vec2 own = vec2(float(k % side), float(k / side));
         vec2 cell = first_cell + own;
-        if (index > 0) cell += vec2(float((index - 1) % 2), float((index - 1) / 2)) * float(count);
         vec2 shift = vec2(shift_of(int(cell.y + 0.5)), shift_of(int(cell.x + 0.5))) * shifted(ray.slope);
-        vec2 at = (own + 0.5 + shift) / float(count) - 0.5;
-        BurinRay sample_ray = part.ray;
-        sample_ray.origin = part.ray.origin + part.along_x * at.x + part.along_y * at.y;
+        vec2 at = (own + 0.5 + shift) / float(side) - 0.5;
+        BurinRay sample_ray = ray;
+        sample_ray.origin = ray.origin + along_x * at.x + along_y * at.y;
         float way;
         met += point_color(sample_ray, way);
-        ++k;
-        if (k == count * count) {
-            sum += met.rgb / max(met.w, 1.0);
-            parts += met.w > 0.0 ? 1.0 : 0.0;
-            met = vec4(0.0);
-            k = 0;
-            asked = asked & (asked - 1u);
-        }
-        if (asked == 0u) break;
+        if (k + 1 >= side * side) break;
     }
+    return vec4(met.rgb / max(met.w, 1.0), met.w);
 }
 
 #endif
 
-// Colour of the pixel, from the ray through its middle; w: 0 where nothing is met. `marks`: quarters that still want rays.
-vec4 pixel_color(BurinRay ray, BURIN_OUT(int) marks, BURIN_OUT(float) way) {
-    marks = 0;
+// Colour of the pixel, from the ray through its middle; w: 0 where nothing is met. `marked`: it wants rays instead.
+vec4 pixel_color(BurinRay ray, BURIN_OUT(bool) marked, BURIN_OUT(float) way) {
+    marked = false;
     way = -1.0;
     vec2 along_x = look_x;
     vec2 along_y = look_y;
 #if PIXEL_FILTER == FILTER_RAYS
-    vec2 at = ray_place + ray_shift * shifted(ray.slope);
+    vec2 at = ray_shift * shifted(ray.slope);
     ray.origin += along_x * at.x + along_y * at.y;
     return point_color(ray, way);
 #else
     BurinRay straight = ray;
     float drop = 0.0;
-    bool areas = burin_straighten(bend, eye_direction, straight, drop);
-    vec3 sum = vec3(0.0);
-    float parts = 0.0;
-    uint special = 1u;
+    vec4 shown = vec4(0.0, 0.0, 0.0, 1.0);
+    marked = true;
     // Beside the outline of a round surface nothing straight stands in for the ray.
-    if (areas) special = sum_areas(straight, drop, along_x, along_y, sum, parts);
-#if PIXEL_FILTER == FILTER_MARKED
-    marks = areas ? int(special >> 1) : 15;
-    return vec4(marks == 0 ? sum / parts : sum * 0.25, 1.0);
-#else
-    sum_rays(ray, along_x, along_y, special, areas ? max(side / 2, 1) : side, sum, parts);
-    return vec4(sum / max(parts, 1.0), parts);
+    if (burin_straighten(bend, eye_direction, straight, drop)) {
+        // Where the straight ray meets the true one.
+        stand_at(straight.origin + straight.slope * drop - bend_start, drop);
+        Areas said = areas_of(straight, along_x, along_y);
+        shown.rgb = said.color;
+        marked = said.special;
+    }
+#if PIXEL_FILTER == FILTER_REGIONS
+    if (marked) shown = rays_color(ray, along_x, along_y);
 #endif
+    return shown;
 #endif
-}
-
-bool is_wanted() {
-    int bits = int(texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x * 255.0 + 0.5);
-    int quarter = (ray_place.x < 0.0 ? 0 : 1) + (ray_place.y < 0.0 ? 0 : 2);
-    return ((bits >> quarter) & 1) != 0;
 }
 
 void main() {
-    if (!is_wanted()) discard;
+    if (texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x == 0.0) discard;
     to_eye = dot(view, view) > 0.0 ? -view : normalize(eye - world_position);
     vec3 n = normalize(world_normal);
     uv_along_x = dFdx(pattern_uv) * pixel_part.x;
@@ -304,9 +230,9 @@ void main() {
     ray.origin = bend_start;
     ray.slope = burin_slope_of(eye_direction);
     stand_at(vec2(0.0), 0.0);
-    int marks;
+    bool marked;
     float way;
-    vec4 found = pixel_color(ray, marks, way);
+    vec4 found = pixel_color(ray, marked, way);
 #ifdef BURIN_CORRECT_DEPTH
 #if PIXEL_FILTER != FILTER_RAYS
     BurinFound middle = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction, chart));
@@ -316,7 +242,7 @@ void main() {
 #endif
 #endif
     if (found.w == 0.0) discard;
-    color = vec4(found.rgb, float(marks));
+    color = vec4(found.rgb, marked ? 1.0 : 0.0);
 #ifdef BURIN_COUNTED
     color = burin_fetched;
 #endif
