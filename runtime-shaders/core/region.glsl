@@ -128,6 +128,10 @@ bool burin_is_bent(BurinShown shown, vec2 slope, vec2 light_slope, float light_w
     // And light that runs along a taper passes a profile of another size.
     float taper = max(abs(e.scales.y - e.scales.x), abs(e.scales.w - e.scales.z)) / max(e.extent, 1.0e-20f);
     float grown = taper * (shown.spread + light_way) / min(shown.stretch.scales.x, shown.stretch.scales.y);
+#if BURIN_FOLDS != 0
+    // Curves of a profile that overhangs hide more of each other than stripes tell, which shows from near.
+    if (e.curved && shown.wide > 2.0f * radius && burin_is_folded(shown.style)) return true;
+#endif
     // By how much it is off counts the less, the smaller the feature is in the pixel.
     float coarse = max(radius / shown.wide, 1.0f);
     return max(max(curvature * shown.spread, waves), grown) > BURIN_MOST_BEND * coarse * coarse;
@@ -258,6 +262,7 @@ struct BurinGathered {
     vec2 homes[BURIN_MAX_REGION_ELEMENTS];   // cell that named it first, not wrapped
     int count;
     bool complete;
+    bool thin;  // some of them so that a few rays may miss them
 };
 BurinGathered burin_gathered;
 
@@ -313,6 +318,7 @@ void burin_gather_cell(vec2 index, BurinRay ray, float radius, float light_way) 
         uint reference = burin_listed(cell, i, texel);
         BurinElement e = burin_element(reference, ray.origin, burin_cell_centre(index));
         bool known = !burin_may_show(e, ray, radius, light_way);
+        burin_gathered.thin = burin_gathered.thin || (!known && burin_style(e.style).reach * burin_widest(e) < radius);
         for (int j = 0; j < BURIN_MAX_REGION_ELEMENTS; ++j) {
             if (known || j >= burin_gathered.count) break;
             known = burin_gathered.references[j] == reference && burin_gathered.images[j] == e.image;
@@ -332,12 +338,14 @@ void burin_gather_cell(vec2 index, BurinRay ray, float radius, float light_way) 
 void burin_gather(BurinSpan span, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows) {
     float light_way = shadows ? length(light_slope) * (burin_map.drop_range.y - burin_map.drop_range.x) : 0.0f;
     burin_gathered.count = 0;
+    burin_gathered.thin = false;
     burin_gathered.complete = span.short_way && span.inside;
     for (int k = 0; k < BURIN_MAX_REGION_CELLS; ++k) {
         if (!burin_gathered.complete) break;
         burin_gather_cell(vec2(span.low + ivec2(k % span.sides.x, k / span.sides.x)), ray, footprint.radius, light_way);
         if (k + 1 >= span.sides.x * span.sides.y) break;
     }
+    burin_gathered.thin = burin_gathered.thin || !burin_gathered.complete;
 }
 
 BurinRegion burin_no_region(vec3 ground, float fullness) {

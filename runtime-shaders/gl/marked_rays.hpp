@@ -13,11 +13,12 @@ namespace burin::gl {
 
 class MarkedRays {
   public:
-    // `pixels`: four floats each, the fourth 1 where rays are wanted and 0 elsewhere.
+    // `pixels`: four floats each, the fourth 1 where rays are wanted, 2 where all of them are, and 0 elsewhere.
     MarkedRays(int width, int height, const std::vector<float>& pixels)
-        : width_(width), height_(height), sum_(count() * 3, 0.0f), rays_(count(), 0.0f), wanted_(count()), seen_(count()) {
+        : width_(width), height_(height), sum_(count() * 3, 0.0f), rays_(count(), 0.0f), wanted_(count()), thin_(count()), seen_(count()) {
         for (std::size_t i = 0; i < count(); ++i) {
             wanted_[i] = pixels[4 * i + 3] > 0.0f ? 255 : 0;
+            thin_[i] = pixels[4 * i + 3] > 1.0f;
             seen_[i].fill(brightness_of(&pixels[4 * i]));
         }
     }
@@ -35,11 +36,11 @@ class MarkedRays {
         }
     }
 
-    // Keeps the pixels whose four rays, or the rays next to these in the pixels around, differ by more than kStep.
+    // Keeps the pixels that want all, and those whose four rays, or the rays next to these in the pixels around, differ by more than kStep.
     void keep_uneven() {
         for (int y = 0; y < height_; ++y)
             for (int x = 0; x < width_; ++x)
-                if (wanted_[at(x, y)] != 0 && range_around(x, y) <= kStep) wanted_[at(x, y)] = 0;
+                if (wanted_[at(x, y)] != 0 && !thin_[at(x, y)] && range_around(x, y) <= kStep) wanted_[at(x, y)] = 0;
     }
 
     void put_means(std::vector<float>& pixels) const {
@@ -68,7 +69,8 @@ class MarkedRays {
     int width_, height_;
     std::vector<float> sum_, rays_;
     std::vector<std::uint8_t> wanted_;         // 255 or 0 per pixel, lower row first
-    std::vector<std::array<float, 4>> seen_;  // brightness of each quarter
+    std::vector<bool> thin_;                   // shows what a few rays may miss
+    std::vector<std::array<float, 4>> seen_;   // brightness of each quarter
 };
 
 }  // namespace burin::gl

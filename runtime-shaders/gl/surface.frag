@@ -169,9 +169,10 @@ vec4 rays_color(BurinRay ray, vec2 along_x, vec2 along_y) {
 
 #endif
 
-// Colour of the pixel, from the ray through its middle; w: 0 where nothing is met. `marked`: it wants rays instead.
-vec4 pixel_color(BurinRay ray, BURIN_OUT(bool) marked, BURIN_OUT(float) way) {
-    marked = false;
+// Colour of the pixel, from the ray through its middle; w: 0 where nothing is met. `mark`: 1 where it wants rays instead, 2 where a few
+// of them would not do even if they agree.
+vec4 pixel_color(BurinRay ray, BURIN_OUT(float) mark, BURIN_OUT(float) way) {
+    mark = 0.0;
     way = -1.0;
     vec2 along_x = look_x;
     vec2 along_y = look_y;
@@ -183,17 +184,17 @@ vec4 pixel_color(BurinRay ray, BURIN_OUT(bool) marked, BURIN_OUT(float) way) {
     BurinRay straight = ray;
     float drop = 0.0;
     vec4 shown = vec4(0.0, 0.0, 0.0, 1.0);
-    marked = true;
+    mark = 1.0;
     // Beside the outline of a round surface nothing straight stands in for the ray.
     if (burin_straighten(bend, eye_direction, straight, drop)) {
         // Where the straight ray meets the true one.
         stand_at(straight.origin + straight.slope * drop - bend_start, drop);
         Areas said = areas_of(straight, along_x, along_y);
         shown.rgb = said.color;
-        marked = said.special;
+        mark = said.special ? (burin_gathered.thin ? 2.0 : 1.0) : 0.0;
     }
 #if PIXEL_FILTER == FILTER_REGIONS
-    if (marked) shown = rays_color(ray, along_x, along_y);
+    if (mark > 0.0) shown = rays_color(ray, along_x, along_y);
 #endif
     return shown;
 #endif
@@ -230,9 +231,9 @@ void main() {
     ray.origin = bend_start;
     ray.slope = burin_slope_of(eye_direction);
     stand_at(vec2(0.0), 0.0);
-    bool marked;
+    float mark;
     float way;
-    vec4 found = pixel_color(ray, marked, way);
+    vec4 found = pixel_color(ray, mark, way);
 #ifdef BURIN_CORRECT_DEPTH
 #if PIXEL_FILTER != FILTER_RAYS
     BurinFound middle = burin_trace_sight(bend, bend_start, burin_eye_sight(bend, bend_start, ray, eye_direction, chart));
@@ -242,7 +243,7 @@ void main() {
 #endif
 #endif
     if (found.w == 0.0) discard;
-    color = vec4(found.rgb, marked ? 1.0 : 0.0);
+    color = vec4(found.rgb, mark);
 #ifdef BURIN_COUNTED
     color = burin_fetched;
 #endif
