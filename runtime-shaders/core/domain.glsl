@@ -131,15 +131,22 @@ BurinPiece burin_clip_beyond(BurinPiece piece, BurinRay ray, BurinEnd end, float
     return piece;
 }
 
-// Both ends leave the whole stretch alone, on either side of the element.
-bool burin_leaves_alone(BurinPiece piece, BurinRay ray, BurinEnd end) {
+// Whether an end does the same to both sides of the element along the whole stretch: it clips both, or leaves them alone.
+bool burin_ends_alike(BurinPiece piece, BurinRay ray, BurinEnd end) {
+    if (burin_clips_both(end)) return true;
     vec2 a = ray.slope * piece.lo - end.vertex;
     vec2 b = ray.slope * piece.hi - end.vertex;
     if (min(dot(a, end.inward), dot(b, end.inward)) < 0.0f) return false;
-    bool clipped = end.priority == BURIN_PRIORITY_LEFT || end.priority == BURIN_PRIORITY_RIGHT ||
-                   burin_clips_both(end);
+    bool clipped = end.priority == BURIN_PRIORITY_LEFT || end.priority == BURIN_PRIORITY_RIGHT;
     vec2 across = burin_clip_normal(end);
     return !clipped || min(dot(a, across), dot(b, across)) >= 0.0f;
+}
+
+// What a smooth joint, or an end on another path's line, leaves of the stretch, on both sides of the element.
+BurinPiece burin_clip_both(BurinPiece piece, BurinRay ray, BurinEnd end, float slack) {
+    if (!burin_clips_both(end)) return piece;
+    vec2 across = burin_clip_normal(end);
+    return burin_clip(piece, ray, end.vertex - across * slack, across);
 }
 
 // Whether an end has a part beyond it on `side`; asked before the part is worked out.

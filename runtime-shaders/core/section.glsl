@@ -37,53 +37,117 @@ struct BurinEvents {
     bool cut_at_end;  // whether the end of the stretch lies in the cut
 };
 
-// Drop where the stretch ta-tb crosses the line through `anchor` with normal `across`; fa, fb: values at its ends.
-float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 values,
-                     vec2 anchor, vec2 across, bool straight) {
-    float ta = range.x;
-    float tb = range.y;
+// A stretch of the ray as the profile sees it: straight, round the vertex of an end, or else a parabola through three of its places,
+// which decides what is crossed. Where a crossing lies is then asked of the section itself.
+struct BurinTrack {
+    vec2 range;  // drops at its ends
+    vec2 a;      // section points there
+    vec2 b;
+    vec2 bow;    // from the middle of the chord a-b to the middle of the stretch
+    bool straight;
+    float side;  // of a round one; 0 for others
+    vec2 start;  // of a round one: from the vertex to its ends over the plane, in widths
+    vec2 end;
+};
+
+BurinTrack burin_track(BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 a, vec2 middle, vec2 b) {
+    BurinTrack on;
+    on.range = range;
+    on.a = a;
+    on.b = b;
+    on.straight = burin_is_straight(piece);
+    on.bow = on.straight ? vec2(0.0f, 0.0f) : middle - (a + b) * 0.5f;
+    on.side = 0.0f;
+    on.start = vec2(0.0f, 0.0f);
+    on.end = on.start;
+#if BURIN_BENDS != 0
+    float width = 1.0f / (piece.width * style.reach);
+    on.side = piece.kind == BURIN_PIECE_RADIAL ? piece.side : 0.0f;
+    on.start = (ray.slope * range.x - piece.anchor) * width;
+    on.end = (ray.slope * range.y - piece.anchor) * width;
+#endif
+    return on;
+}
+
+// Section point at `share` of the stretch, [0, 1].
+vec2 burin_along(BurinTrack on, float share) {
+    vec2 q = mix(on.a, on.b, share);
+#if BURIN_BENDS != 0
+    q = q + on.bow * (4.0f * share * (1.0f - share));
+    if (on.side != 0.0f) q = vec2(on.side * length(mix(on.start, on.end, share)), mix(on.a.y, on.b.y, share));
+#endif
+    return q;
+}
+
+// What lies between two shares of a stretch.
+BurinTrack burin_track_part(BurinTrack on, float from, float to) {
+    BurinTrack part = on;
+    part.range = vec2(mix(on.range.x, on.range.y, from), mix(on.range.x, on.range.y, to));
+    part.a = burin_along(on, from);
+    part.b = burin_along(on, to);
+    part.bow = on.bow * ((to - from) * (to - from));
+    part.start = mix(on.start, on.end, from);
+    part.end = mix(on.start, on.end, to);
+    return part;
+}
+
+// Share at which the stretch crosses the line through `anchor` with normal `across` between two shares with the values `values`,
+// of which one is positive and one is not.
+float burin_crossing_share(BurinTrack on, vec2 shares, vec2 values, vec2 anchor, vec2 across) {
     float fa = values.x;
     float fb = values.y;
-    float t = mix(ta, tb, fa / (fa - fb));
-    if (straight) return t;
+    float share = mix(shares.x, shares.y, fa / (fa - fb));
 #if BURIN_BENDS != 0
     // Regula falsi with halving of the end that stays (Illinois).
-    float settled = 1.0e-6f * burin_map.depth;
-    for (int i = 0; i < 12; ++i) {
-        float f = dot(burin_section(e, style, piece, ray, t).q - anchor, across);
+    float sa = shares.x;
+    float sb = shares.y;
+    for (int i = 0; i < BURIN_MAX_FALSI; ++i) {
+        if (on.straight) break;
+        float f = dot(burin_along(on, share) - anchor, across);
         if ((f > 0.0f) == (fb > 0.0f)) {
-            tb = t;
-            fb = f;
             fa = fa * 0.5f;
         } else {
-            ta = tb;
+            sa = sb;
             fa = fb;
-            tb = t;
-            fb = f;
         }
+        sb = share;
+        fb = f;
         if (abs(fa - fb) < 1.0e-12f) break;
-        float better = clamp(mix(ta, tb, fa / (fa - fb)), range.x, range.y);
-        bool done = abs(better - t) < settled;
-        t = better;
+        float better = clamp(mix(sa, sb, fa / (fa - fb)), shares.x, shares.y);
+        bool done = abs(better - share) < 1.0e-6f;
+        share = better;
         if (done) break;
+    }
+#endif
+    return share;
+}
+
+// Drop of that crossing, where the section itself has it.
+float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinTrack on, vec2 shares, vec2 values,
+                     vec2 anchor, vec2 across) {
+    float share = burin_crossing_share(on, shares, values, anchor, across);
+    float t = mix(on.range.x, on.range.y, share);
+#if BURIN_BENDS != 0
+    if (on.straight || on.side != 0.0f) return t;
+    vec2 part = vec2(mix(on.range.x, on.range.y, shares.x), mix(on.range.x, on.range.y, shares.y));
+    float rate = dot(on.b - on.a + on.bow * (4.0f - 8.0f * share), across) / (on.range.y - on.range.x);
+    // As steep as the chord of the values at least, within reason: where the parabola turns its tangent says nothing.
+    float least = 0.25f * (values.y - values.x) / max(part.y - part.x, 1.0e-30f);
+    rate = abs(rate) < abs(least) ? least : rate;
+    for (int i = 0; i < BURIN_CROSSING_STEPS; ++i) {
+        float f = dot(burin_section(e, style, piece, ray, t).q - anchor, across);
+        t = clamp(t - f / rate, part.x, part.y);
     }
 #endif
     return t;
 }
 
-// Side of the profile's point that the ray passes on. On a curved stretch the ray is asked at the height of the point.
-bool burin_passes_left(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 d,
-                       vec2 point, bool straight) {
-    vec2 q = qa;
+// Side of the profile's point that the ray passes on. On a bent stretch the ray is asked at the height of the point.
+bool burin_passes_left(BurinTrack on, vec2 point) {
+    vec2 d = on.b - on.a;
+    vec2 q = on.a;
 #if BURIN_BENDS != 0
-    // Points beside the stretch need no second look.
-    if (!straight && point.x > min(qa.x, qa.x + d.x) - 0.1f && point.x < max(qa.x, qa.x + d.x) + 0.1f) {
-        float share = clamp((point.y - qa.y) / min(d.y, -1.0e-20f), 0.0f, 1.0f);
-        if (share > 0.0f && share < 1.0f)
-            q = burin_section(e, style, piece, ray, mix(range.x, range.y, share)).q;
-        else
-            q = qa + d * share;
-    }
+    if (!on.straight) q = burin_along(on, clamp((point.y - on.a.y) / min(d.y, -1.0e-20f), 0.0f, 1.0f));
 #endif
     return d.x * (point.y - q.y) - d.y * (point.x - q.x) > 0.0f;
 }
@@ -140,8 +204,8 @@ float burin_facet_height(vec2 a, vec2 b, float x) {
 
 // Where a stretch crosses the line of a border, parted so that each part crosses it once at most.
 struct BurinCrossings {
-    vec2 across;  // normal of the line
-    float middle;  // drop where the parts meet; the end of the stretch where there is one part
+    vec2 across;   // normal of the line
+    float middle;  // share where the parts meet; 1 where there is one part
     vec3 values;   // along the normal, where the stretch begins, at the middle and where it ends
     bool first;    // whether the crossing of the first part lies on the border
     bool second;
@@ -160,43 +224,39 @@ float burin_turn(float fa, float s, float f, float fb) {
 
 // Of the border from `last` to `point`, which the ray passes on their left or not; `sense`: +1, or -1 where it is crossed
 // inwards from its right. Ends of the stretch on different sides of the line are joined by one crossing, which lies on the
-// border where `odd` says so. A bent stretch whose ends lie on the same side may come through and go back: a parabola through
-// its middle `qm`, asked for where `known` is false, tells where it turns.
-BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
-                               bool straight, vec2 last, vec2 point, float sense, bool last_left, bool left, bool odd,
-                               BURIN_INOUT(bool) known, BURIN_INOUT(vec2) qm) {
+// border where `odd` says so. A bent stretch whose ends lie on the same side may come through and go back: a parabola tells
+// where it turns.
+BurinCrossings burin_crossings(BurinTrack on, vec2 last, vec2 point, float sense, bool last_left, bool left, bool odd) {
     vec2 way = point - last;
     BurinCrossings found;
     found.across = vec2(-way.y, way.x) * sense;
-    float fa = dot(qa - last, found.across);
-    float fb = dot(qb - last, found.across);
-    found.middle = range.y;
+    float fa = dot(on.a - last, found.across);
+    float fb = dot(on.b - last, found.across);
+    found.middle = 1.0f;
     found.values = vec3(fa, fb, fb);
     found.first = odd;
     found.second = false;
 #if BURIN_BENDS != 0
     bool apart = min(abs(fa), abs(fb)) > 0.1f * length(way);
-    if (straight || apart || (fa > 0.0f) != (fb > 0.0f)) return found;
+    if (on.straight || apart || (fa > 0.0f) != (fb > 0.0f)) return found;
     float turn = 0.5f;
-    vec2 q = qm;
+    vec2 q = on.a;
     float value = fa;
     for (int n = 0; n < 3; ++n) {
         if (n > 0) turn = burin_turn(fa, turn, value, fb);
         if (turn < 0.0f) break;
-        if (n > 0 || !known) q = burin_section(e, style, piece, ray, mix(range.x, range.y, turn)).q;
-        if (n == 0) qm = q;
-        known = true;
+        q = burin_along(on, turn);
         value = dot(q - last, found.across);
         if ((value > 0.0f) != (fa > 0.0f)) break;
     }
     if ((value > 0.0f) == (fa > 0.0f)) return found;
-    found.middle = mix(range.x, range.y, turn);
+    found.middle = turn;
     found.values.y = value;
     // A point of the line between the two crossings has the ray on its other side, and lies at a height that the stretch has.
-    vec2 d = qb - qa;
+    vec2 d = on.b - on.a;
     bool behind = (d.x * found.across.y - d.y * found.across.x > 0.0f) == (fa > 0.0f);
-    bool last_between = last_left == behind && last.y < qa.y && last.y > qb.y;
-    bool between = left == behind && point.y < qa.y && point.y > qb.y;
+    bool last_between = last_left == behind && last.y < on.a.y && last.y > on.b.y;
+    bool between = left == behind && point.y < on.a.y && point.y > on.b.y;
     float along = dot(q - last, way);
     if (between != last_between) found.first = between == (dot(d, way) > 0.0f);
     else found.first = !between && along > 0.0f && along < dot(way, way);
@@ -206,18 +266,18 @@ BurinCrossings burin_crossings(BurinElement e, BurinStyle style, BurinPiece piec
 }
 
 // Notes the crossings of one border, which bounds the add between the drops add_range, and the cut after cut_from.
-void burin_note_crossings(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, BurinCrossings on,
-                          vec2 anchor, bool straight, vec2 add_range, float cut_from, int facet, BURIN_INOUT(BurinEvents) found) {
+void burin_note_crossings(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinTrack on, BurinCrossings at,
+                          vec2 anchor, vec2 add_range, float cut_from, int facet, BURIN_INOUT(BurinEvents) found) {
     for (int k = 0; k < 2; ++k) {
-        vec2 part = k == 0 ? vec2(range.x, on.middle) : vec2(on.middle, range.y);
-        vec2 values = k == 0 ? vec2(on.values.x, on.values.y) : vec2(on.values.y, on.values.z);
+        vec2 shares = k == 0 ? vec2(0.0f, at.middle) : vec2(at.middle, 1.0f);
+        vec2 values = k == 0 ? vec2(at.values.x, at.values.y) : vec2(at.values.y, at.values.z);
         bool inwards = values.x > 0.0f;
-        if ((k == 0 ? on.first : on.second) && inwards != (values.y > 0.0f)) {
-            float t = burin_crossing(e, style, piece, ray, part, values, anchor, on.across, straight);
+        if ((k == 0 ? at.first : at.second) && inwards != (values.y > 0.0f)) {
+            float t = burin_crossing(e, style, piece, ray, on, shares, values, anchor, at.across);
             if (t > add_range.x && t < add_range.y) burin_note_add(t, facet, inwards, found);
             if (t > cut_from) burin_note_cut(t, facet, inwards, found);
         }
-        if (!on.second) break;
+        if (!at.second) break;
     }
 }
 
@@ -235,26 +295,25 @@ bool burin_bit(uint bits, int i) {
 }
 
 // Whether the border from `last` along `way` can be crossed, of which `odd` says whether a straight stretch crosses it.
-bool burin_may_cross(vec2 qa, vec2 qb, bool straight, vec2 last, vec2 way, bool odd) {
-    if (odd || straight) return odd;
+bool burin_may_cross(BurinTrack on, vec2 last, vec2 way, bool odd) {
+    if (odd || on.straight) return odd;
     vec2 across = vec2(-way.y, way.x);
-    float fa = dot(qa - last, across);
-    float fb = dot(qb - last, across);
+    float fa = dot(on.a - last, across);
+    float fb = dot(on.b - last, across);
     return (fa > 0.0f) == (fb > 0.0f) && min(abs(fa), abs(fb)) <= 0.1f * length(way);
 }
 
 // Finds them, and whether the stretch ends in the cut, and its part above the ground, which ends at `qe`, in the add.
-BurinBounds burin_bounds(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
-                         vec2 qe, bool straight, BURIN_INOUT(BurinEvents) found) {
+BurinBounds burin_bounds(BurinStyle style, BurinTrack on, vec2 qe, BURIN_INOUT(BurinEvents) found) {
     BurinBounds bounds;
     bounds.facets = 0u;
     bounds.uprights = 0u;
     bounds.lefts = 0u;
-    vec2 d = qb - qa;
+    bool rightwards = on.b.x > on.a.x;
     vec2 up = vec2(0.0f, BURIN_FAR_UP);
-    float bulge = straight ? 0.0f : 0.1f;
-    float b_low = min(qa.x, qb.x) - bulge;
-    float b_high = max(qa.x, qb.x) + bulge;
+    float bulge = on.straight ? 0.0f : 0.1f;
+    float b_low = min(on.a.x, on.b.x) - bulge;
+    float b_high = max(on.a.x, on.b.x) + bulge;
     uvec4 texel = uvec4(0u, 0u, 0u, 0u);
     vec2 last = vec2(0.0f, 0.0f);
     bool last_left = false;
@@ -264,9 +323,9 @@ BurinBounds burin_bounds(BurinElement e, BurinStyle style, BurinPiece piece, Bur
         if (i % BURIN_POINTS_PER_TEXEL == 0) texel = burin_point_texel(style, i);
         vec2 point = burin_point(texel, i);
         bool internal = i > 0 && burin_bit(style.internal, i - 1);
-        bool left = burin_passes_left(e, style, piece, ray, range, qa, d, point, straight);
+        bool left = burin_passes_left(on, point);
         bounds.lefts = bounds.lefts | (left ? 1u << uint(i) : 0u);
-        if (internal && burin_spans(last, point, qb.x) && burin_facet_height(last, point, qb.x) <= qb.y) run_odd = !run_odd;
+        if (internal && burin_spans(last, point, on.b.x) && burin_facet_height(last, point, on.b.x) <= on.b.y) run_odd = !run_odd;
         bool ends = last_internal && !internal;
         found.cut_at_end = found.cut_at_end || (ends && run_odd);
         run_odd = run_odd && !ends;
@@ -275,8 +334,8 @@ BurinBounds burin_bounds(BurinElement e, BurinStyle style, BurinPiece piece, Bur
             if (burin_spans(last, point, qe.x) && burin_facet_height(last, point, qe.x) > qe.y + BURIN_FILM)
                 found.add_at_end = !found.add_at_end;
             uint bit = 1u << uint(i - 1);
-            if (burin_may_cross(qa, qb, straight, last, point - last, last_left != left)) bounds.facets = bounds.facets | bit;
-            if (internal != last_internal && burin_may_cross(qa, qb, straight, last, up, (d.x > 0.0f) != last_left))
+            if (burin_may_cross(on, last, point - last, last_left != left)) bounds.facets = bounds.facets | bit;
+            if (internal != last_internal && burin_may_cross(on, last, up, rightwards != last_left))
                 bounds.uprights = bounds.uprights | bit;
         }
         last = point;
@@ -285,20 +344,18 @@ BurinBounds burin_bounds(BurinElement e, BurinStyle style, BurinPiece piece, Bur
         if (i + 1 >= style.count) break;
     }
     found.cut_at_end = found.cut_at_end || (last_internal && run_odd);
-    if (last_internal && burin_may_cross(qa, qb, straight, last, up, (d.x > 0.0f) != last_left))
+    if (last_internal && burin_may_cross(on, last, up, rightwards != last_left))
         bounds.uprights = bounds.uprights | (1u << uint(style.count - 1));
     return bounds;
 }
 
 // The next crossings of a profile's borders: of its add between the drops add_range, of its cut after cut_from.
-BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
-                         bool straight, vec2 add_range, float cut_from) {
+BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinTrack on, vec2 add_range,
+                         float cut_from) {
     BurinEvents found = burin_no_events();
     // An add ends at the ground; below it the profile says nothing about it.
-    vec2 qe = mix(qa, qb, clamp((add_range.y - range.x) / (range.y - range.x), 0.0f, 1.0f));
-    BurinBounds bounds = burin_bounds(e, style, piece, ray, range, qa, qb, qe, straight, found);
-    bool known = false;
-    vec2 qm = vec2(0.0f, 0.0f);
+    vec2 qe = burin_along(on, clamp((add_range.y - on.range.x) / (on.range.y - on.range.x), 0.0f, 1.0f));
+    BurinBounds bounds = burin_bounds(style, on, qe, found);
     for (int n = 0; n < 2 * BURIN_MAX_PROFILE_POINTS; ++n) {
         uint left_over = bounds.facets | bounds.uprights;
         if (left_over == 0u) break;
@@ -310,14 +367,12 @@ BurinEvents burin_events(BurinElement e, BurinStyle style, BurinPiece piece, Bur
         vec2 next = own ? burin_profile_point(style, i + 1) : last + vec2(0.0f, BURIN_FAR_UP);
         bool last_left = burin_bit(bounds.lefts, i);
         bool left = own && burin_bit(bounds.lefts, i + 1);
-        bool odd = last_left != (own ? left : qb.x > qa.x);
+        bool odd = last_left != (own ? left : on.b.x > on.a.x);
         float sense = own || !internal ? 1.0f : -1.0f;
-        BurinCrossings on = burin_crossings(e, style, piece, ray, range, qa, qb, straight, last, next, sense, last_left, left,
-                                            odd, known, qm);
+        BurinCrossings at = burin_crossings(on, last, next, sense, last_left, left, odd);
         vec2 add_part = own ? add_range : vec2(1.0f, 0.0f);
         float cuts_after = own && !internal ? 1.0e30f : cut_from;
-        burin_note_crossings(e, style, piece, ray, range, on, last, straight, add_part, cuts_after,
-                             own ? i : BURIN_FACET_WALL, found);
+        burin_note_crossings(e, style, piece, ray, on, at, last, add_part, cuts_after, own ? i : BURIN_FACET_WALL, found);
         if (own) bounds.facets = bounds.facets ^ bit;
         else bounds.uprights = bounds.uprights ^ bit;
         // Drivers that run every turn of a loop for all pixels of a block run one more for a test at its beginning.

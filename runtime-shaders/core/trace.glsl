@@ -3,20 +3,20 @@
 //     find the first point in (ground U additions); while it lies in a cut, go on where the cuts end; else it is met.
 
 // What one stretch of an element says about the first solid point.
-void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 qa, vec2 qb,
-                 BurinMark mark, BURIN_INOUT(BurinPass) pass) {
-    bool straight = burin_is_straight(piece);
+void burin_judge(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinTrack on, BurinMark mark,
+                 BURIN_INOUT(BurinPass) pass) {
+    vec2 range = on.range;
     if (style.stepped) {
         // The overlap of the sides must not reach over the path line, where the run of cutting facets ends.
-        qa.x = piece.side * max(qa.x * piece.side, 1.0e-6f);
-        qb.x = piece.side * max(qb.x * piece.side, 1.0e-6f);
+        on.a.x = piece.side * max(on.a.x * piece.side, 1.0e-6f);
+        on.b.x = piece.side * max(on.b.x * piece.side, 1.0e-6f);
     }
-    float margin = straight ? 1.0f : 1.25f;
-    if (min(qa.x, qb.x) > margin || max(qa.x, qb.x) < -margin) return;
+    float margin = on.straight ? 1.0f : 1.25f;
+    if (min(on.a.x, on.b.x) > margin || max(on.a.x, on.b.x) < -margin) return;
     float same = BURIN_SAME_DROP * burin_map.depth;
     float add_from = max(pass.from, range.x);
     vec2 add_range = vec2(add_from > pass.from ? add_from : pass.from + same, pass.ground - same);
-    BurinEvents next = burin_events(e, style, piece, ray, range, qa, qb, straight, add_range, pass.air + same);
+    BurinEvents next = burin_events(e, style, piece, ray, on, add_range, pass.air + same);
     mark.wall = range.y == piece.hi ? piece.hi_wall : vec2(0.0f, 0.0f);
     if (pass.air < range.y) {
         bool crossed = next.cut < 1.0e29f;
@@ -64,6 +64,25 @@ int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, Buri
     return min(count + int(ceil(turns * sqrt(burin_waviness(e) * 8.0f))), BURIN_MAX_WAVE_SEGMENTS);
 }
 
+// The sides of a curve part where b changes sign. Keeps the part of a stretch on the side of the piece; false: there is none.
+bool burin_keep_side(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BURIN_INOUT(BurinTrack) on) {
+#if BURIN_CURVES != 0
+    if (piece.kind != BURIN_PIECE_CURVE || piece.side == 0.0f) return true;
+    // They overlap a little, as those of a line do.
+    float middle = -piece.side * 4.0f * BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y) / style.reach;
+    vec2 inside = (vec2(on.a.x, on.b.x) - vec2(middle, middle)) * piece.side;
+    bool from_inside = inside.x >= 0.0f;
+    bool to_inside = inside.y >= 0.0f;
+    if (from_inside == to_inside) return from_inside;
+    float t = burin_crossing(e, style, piece, ray, on, vec2(0.0f, 1.0f), inside, vec2(middle, 0.0f), vec2(piece.side, 0.0f));
+    float share = (t - on.range.x) / (on.range.y - on.range.x);
+    on = from_inside ? burin_track_part(on, 0.0f, share) : burin_track_part(on, share, 1.0f);
+    if (from_inside) on.b.x = middle;
+    else on.a.x = middle;
+#endif
+    return true;
+}
+
 void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, BurinRay ray, BurinMark mark,
                        BURIN_INOUT(BurinPass) pass) {
     int count = burin_segment_count(e, style, piece, ray);
@@ -77,50 +96,20 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
         count = above + max(count - share, 1);
     }
     count = max(count, 1);
-    float overlap = 4.0f * BURIN_OVERLAP * max(burin_map.size.x, burin_map.size.y) / style.reach;
-    bool halved = piece.kind == BURIN_PIECE_CURVE && piece.side != 0.0f;
-    BurinSection section = burin_section(e, style, piece, ray, piece.lo);
     vec2 range = vec2(piece.lo, piece.lo);
-    vec2 qa = vec2(0.0f, 0.0f);
-    vec2 qb = section.q;
-    vec2 heights = vec2(1.0f, section.height);  // scales at both ends
+    vec2 q = burin_section(e, style, piece, ray, piece.lo).q;
     for (int i = 1; i <= BURIN_MAX_WAVE_SEGMENTS + 1; ++i) {
         float to = i == count ? piece.hi : (i == above ? part : mix(part, piece.hi, float(i - above) / float(count - above)));
         if (i < above) to = mix(piece.lo, part, float(i) / float(above));
         range = vec2(range.y, to);
-        qa = qb;
-        section = burin_section(e, style, piece, ray, range.y);
-        qb = section.q;
-        heights = vec2(heights.y, section.height);
-        vec2 half_range = range;
-        vec2 ha = qa;
-        vec2 hb = qb;
-        bool acts = true;
-#if BURIN_CURVES != 0
-        if (halved) {
-            // The sides of a curve part where b changes sign; they overlap a little, as those of a line do.
-            float middle = -piece.side * overlap;
-            vec2 inside = (vec2(qa.x, qb.x) - vec2(middle, middle)) * piece.side;
-            bool from_inside = inside.x >= 0.0f;
-            bool to_inside = inside.y >= 0.0f;
-            acts = from_inside || to_inside;
-            if (from_inside != to_inside) {
-                float t = burin_crossing(e, style, piece, ray, range, inside, vec2(middle, 0.0f),
-                                         vec2(piece.side, 0.0f), false);
-                // Where the height scale changes, it runs nearly straight, the height that it divides does not.
-                float height = mix(heights.x, heights.y, (t - range.x) / (range.y - range.x));
-                vec2 q = vec2(middle, (style.level - t) / (height * burin_map.depth));
-                if (from_inside) {
-                    half_range.y = t;
-                    hb = q;
-                } else {
-                    half_range.x = t;
-                    ha = q;
-                }
-            }
-        }
+        vec2 qa = q;
+        vec2 qm = qa;
+#if BURIN_BENDS != 0
+        qm = burin_section(e, style, piece, ray, 0.5f * (range.x + range.y)).q;
 #endif
-        if (acts) burin_judge(e, style, piece, ray, half_range, ha, hb, mark, pass);
+        q = burin_section(e, style, piece, ray, range.y).q;
+        BurinTrack on = burin_track(style, piece, ray, range, qa, qm, q);
+        if (burin_keep_side(e, style, piece, ray, on)) burin_judge(e, style, piece, ray, on, mark, pass);
         // At the end, as everywhere here: see burin_events.
         if (i >= count) break;
     }
@@ -192,20 +181,27 @@ void burin_visit(BurinCandidate next, BurinRay ray, vec2 stretch, BURIN_INOUT(Bu
     float pad = BURIN_SAME_DROP * burin_map.depth + 1.0e-5f * (stretch.y - stretch.x);
     BurinElement e = next.e;
     BurinPiece whole = burin_whole(e, stretch.x - pad, stretch.y + pad);
-    bool plain = next.left && next.right && burin_leaves_alone(whole, ray, next.start) && burin_leaves_alone(whole, ray, next.end);
+    bool alike = next.left && next.right && burin_ends_alike(whole, ray, next.start) && burin_ends_alike(whole, ray, next.end);
     BurinMark mark;
     mark.element = next.reference;
     mark.facet = BURIN_FACET_WALL;
     mark.wall = vec2(0.0f, 0.0f);
-    uint parts = plain ? 1u : burin_parts_of(next.start, next.end, next.left, next.right, e.curved);
+    uint parts = alike ? 1u : burin_parts_of(next.start, next.end, next.left, next.right, e.curved);
     for (int n = 0; n < 2 * BURIN_PARTS; ++n) {
-        int i = burin_lowest_bit(parts);
-        parts = parts & (parts - 1u);
-        mark.part = i / 2;
-        mark.side = plain ? 0.0f : (i % 2 == 0 ? -1.0f : 1.0f);
         BurinPiece piece = whole;
-        if (!plain) piece = burin_part(e, next.start, next.end, ray, whole, mark.part, mark.side);
-        if (piece.hi > piece.lo) burin_visit_piece(e, next.style, burin_formula(e, piece, mark.part), ray, mark, pass);
+        bool found = false;
+        // Parts that the ray does not come to are passed by before the next one is visited.
+        for (int k = 0; k < 2 * BURIN_PARTS; ++k) {
+            int i = burin_lowest_bit(parts);
+            parts = parts & (parts - 1u);
+            mark.part = i / 2;
+            mark.side = alike ? 0.0f : (i % 2 == 0 ? -1.0f : 1.0f);
+            if (alike) piece = burin_clip_both(burin_clip_both(whole, ray, next.start, e.slack), ray, next.end, e.slack);
+            else piece = burin_part(e, next.start, next.end, ray, whole, mark.part, mark.side);
+            found = piece.hi > piece.lo;
+            if (found || parts == 0u) break;
+        }
+        if (found) burin_visit_piece(e, next.style, burin_formula(e, piece, mark.part), ray, mark, pass);
         if (parts == 0u) break;
     }
 }

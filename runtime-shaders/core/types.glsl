@@ -167,6 +167,9 @@ struct BurinHit {
 #else
 #define BURIN_MAX_WAVE_SEGMENTS BURIN_MAX_SEGMENTS
 #endif
+// Steps to a crossing along a parabola, and from there along the section that it stands for.
+#define BURIN_MAX_FALSI 12
+#define BURIN_CROSSING_STEPS 2
 // Part of the depth under which two drops count as one: above float noise, below the texels' own steps.
 #define BURIN_SAME_DROP 1.0e-6f
 // Part of the depth under which two levels are one code: less than one step of UNORM16.
