@@ -55,9 +55,9 @@ int burin_segment_count(BurinElement e, BurinStyle style, BurinPiece piece, Buri
     if (piece.kind == BURIN_PIECE_CURVE) bend = burin_greatest_curvature(e);
     if (piece.kind == BURIN_PIECE_RADIAL) bend = 2.0f / style.reach;
     if (!piece.fixed_scale) bend = bend + 1.0f / max(e.extent, 1.0e-6f);
-    // Rise of the arc over its chord, in reaches.
-    float rise = way * way * bend / (8.0f * style.reach);
-    int count = clamp(int(ceil(sqrt(rise * 12.0f))), 1, BURIN_MAX_SEGMENTS);
+    // A parabola through three places of an arc is off by the third power of the way times the square of the bend, both in reaches.
+    float tight = burin_cube_root(bend * style.reach);
+    int count = clamp(int(ceil(BURIN_TRACK_PARTS * way / style.reach * tight * tight)), 1, BURIN_MAX_SEGMENTS);
     if (piece.fixed_scale || !e.waved) return count;
     float run = e.curved ? way : abs(dot(ray.slope, e.t0)) * (piece.hi - piece.lo);
     float turns = e.argument.y * min(run / max(e.extent, 1.0e-6f), 1.0f);

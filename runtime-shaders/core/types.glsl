@@ -167,6 +167,8 @@ struct BurinHit {
 #else
 #define BURIN_MAX_WAVE_SEGMENTS BURIN_MAX_SEGMENTS
 #endif
+// Parabolas that stand for a bent section, on each reach of a ray's way past a bend with a radius of one reach: off by 0.002 reaches.
+#define BURIN_TRACK_PARTS 2.3f
 // Steps to a crossing along a parabola, and from there along the section that it stands for.
 #define BURIN_MAX_FALSI 12
 #define BURIN_CROSSING_STEPS 2
