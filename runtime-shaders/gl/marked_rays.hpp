@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gl/accumulator.hpp"
+#include "gl/pixel_window.hpp"
 
 namespace burin::gl {
 
@@ -34,6 +35,31 @@ class MarkedRays {
             rays_[i] += 1.0f;
             if (k < 4) seen_[i][k] = brightness_of(&pixels[4 * i]);
         }
+    }
+
+    bool any_wanted(const PixelWindow& window) const {
+        for (int y = window.low; y < window.low + window.height; ++y) {
+            const auto row = wanted_.begin() + std::ptrdiff_t(at(window.left, y));
+            if (std::any_of(row, row + window.width, [](std::uint8_t one) { return one != 0; })) return true;
+        }
+        return false;
+    }
+
+    // What the rays of each pixel of `window` met, as the target has them, from a pixel on: those before were added before.
+    void add(const std::vector<float>& texels, const PixelWindow& window, int left, int low) {
+        const int across = window.across;
+        for (int y = low; y < window.low + window.height; ++y)
+            for (int x = left; x < window.left + window.width; ++x) {
+                const std::size_t i = at(x, y);
+                if (wanted_[i] == 0) continue;
+                for (int k = 0; k < across * across; ++k) {
+                    const int u = (x - window.left) * across + k % across, v = (y - window.low) * across + k / across;
+                    const float* met = &texels[4 * (std::size_t(v) * std::size_t(window.width * across) + std::size_t(u))];
+                    for (std::size_t c = 0; c < 3; ++c) sum_[3 * i + c] += met[c];
+                    rays_[i] += 1.0f;
+                    if (across == 2) seen_[i][std::size_t(k)] = brightness_of(met);
+                }
+            }
     }
 
     // Keeps the pixels that want all, and those whose four rays, or the rays next to these in the pixels around, differ by more than kStep.

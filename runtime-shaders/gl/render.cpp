@@ -19,6 +19,7 @@
 #include "gl/prepared_asset.hpp"
 #include "gl/program.hpp"
 #include "gl/sample_places.hpp"
+#include "gl/veil.hpp"
 
 namespace burin {
 namespace {
@@ -86,8 +87,7 @@ void set_view(const gl::Program& program, const View& view, const RenderOptions&
     program.set("shadows", options.shadows ? 1 : 0);
 }
 
-void draw_pass(const gl::Functions& gl, const gl::Program& program, const Asset& asset, const Scene& scene) {
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+void draw_meshes(const gl::Functions& gl, const gl::Program& program, const Asset& asset, const Scene& scene) {
     for (std::size_t i = 0; i < asset.primitives.size(); ++i) {
         const std::size_t index = std::size_t(asset.primitives[i].material);
         const MaterialInfo& material = asset.materials[index];
@@ -106,27 +106,13 @@ void draw_pass(const gl::Functions& gl, const gl::Program& program, const Asset&
     gl.Finish();
 }
 
-// A texture of one byte per pixel on unit 2, from which the shader reads where to draw.
-class WantedTexture {
-  public:
-    explicit WantedTexture(const gl::Functions& gl) : gl_(gl) { gl_.GenTextures(1, &name_); }
-    WantedTexture(const WantedTexture&) = delete;
-    WantedTexture& operator=(const WantedTexture&) = delete;
-    ~WantedTexture() { gl_.DeleteTextures(1, &name_); }
-
-    void set(const std::vector<std::uint8_t>& wanted, int width, int height) const {
-        gl_.ActiveTexture(GL_TEXTURE0 + 2);
-        gl_.BindTexture(GL_TEXTURE_2D, name_);
-        gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, wanted.data());
-        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    }
-
-  private:
-    const gl::Functions& gl_;
-    GLuint name_ = 0;
-};
+// Clip space of the picture to that of a window of it.
+glm::dmat4 crop(const RenderOptions& options, const gl::PixelWindow& window) {
+    const glm::dvec3 scale(double(options.width) / window.width, double(options.height) / window.height, 1.0);
+    const glm::dvec3 middle(2.0 * window.left + window.width - options.width, 2.0 * window.low + window.height - options.height, 0.0);
+    const glm::dvec3 shift(-middle.x / window.width, -middle.y / window.height, 0.0);
+    return glm::scale(glm::translate(glm::dmat4(1.0), shift), scale);
+}
 
 // Rays per side of a sample: an even number, so that the first four spread over its quarters.
 int ray_side(int rays) { return 2 * int(std::ceil(std::sqrt(double(rays)) / 2.0 - 1e-9)); }
@@ -137,7 +123,7 @@ class Painter {
     // All must outlive it.
     Painter(const gl::Functions& gl, const Asset& asset, const RenderOptions& options, const gl::FloatTarget& target, bool counted = false)
         : gl_(gl), asset_(asset), options_(options), target_(target), counted_(counted),
-          scene_(load_scene(gl, asset, options)), view_(place_camera(asset, options)), wanted_(gl),
+          scene_(load_scene(gl, asset, options)), view_(place_camera(asset, options)),
           samples_(gl::sample_grid(options.samples, options.antialiasing == Antialiasing::regions)), ray_side_(ray_side(options.rays)) {}
 
     const std::vector<Vec2>& places() const { return samples_.places; }
@@ -170,33 +156,93 @@ class Painter {
             scene_.environment->bind(*built, options_.environment->rotation, options_.environment->strength);
         built->set("side", ray_side_);
         built->set("cells", ray_side_ * samples_.side);
-        built->set("pixel_part", float(samples_.part.x), float(samples_.part.y));
-        built->set("wanted", 2);
         return &*built;
+    }
+
+    // Null where all pixels are wanted.
+    Result<const gl::Veil*> veil_over(const std::vector<std::uint8_t>& wanted) {
+        if (std::find(wanted.begin(), wanted.end(), 0) == wanted.end()) return nullptr;
+        if (!veil_) {
+            auto made = gl::Veil::create(gl_);
+            if (!made) return made.error();
+            veil_ = std::move(*made);
+        }
+        veil_->set(wanted, options_.width, options_.height);
+        return veil_.get();
+    }
+
+    // Into the target at hand, which shows `window` by `to_clip`.
+    void draw_window(const gl::Program& program, const gl::PixelWindow& window, const glm::dmat4& to_clip, const gl::Veil* veil) {
+        gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        if (veil != nullptr) veil->draw(window);
+        program.use();
+        program.set("across", window.across);
+        program.set("pixel_part", float(samples_.part.x * window.across), float(samples_.part.y * window.across));
+        const glm::mat4 matrix(to_clip);
+        gl_.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix));
+        draw_meshes(gl_, program, asset_, scene_);
     }
 
     Result<std::vector<float>> draw(int filter, const gl::RayPlace& place, const std::vector<std::uint8_t>& wanted) {
         const auto chosen = program(filter);
         if (!chosen) return chosen.error();
+        const auto veil = veil_over(wanted);
+        if (!veil) return veil.error();
         const gl::Program& program = **chosen;
         program.use();
-        wanted_.set(wanted, options_.width, options_.height);
-        // What is moved to the right is seen from a place further left.
-        const Vec2 moved{sample_.x - place.middle.x * samples_.part.x, sample_.y - place.middle.y * samples_.part.y};
-        const glm::mat4 matrix(projection(view_, options_, moved.x, moved.y));
-        gl_.UniformMatrix4fv(program.at("world_to_clip"), 1, GL_FALSE, glm::value_ptr(matrix));
         program.set("ray_shift", float(place.shift.x), float(place.shift.y));
         const gl::RayCell first = gl::first_ray_cell(ray_side_, sample_, samples_.side);
         program.set("first_cell", float(first.column), float(first.row));
-        draw_pass(gl_, program, asset_, scene_);
+        // What is moved to the right is seen from a place further left.
+        const Vec2 moved{sample_.x - place.middle.x * samples_.part.x, sample_.y - place.middle.y * samples_.part.y};
+        draw_window(program, {0, 0, options_.width, options_.height}, projection(view_, options_, moved.x, moved.y), *veil);
         return target_.read(0);
+    }
+
+    // Adds across x across rays of each pixel that wants them, all side by side: drivers that work on blocks of texels, and for all of one
+    // if for any, lose least when those of a block lie in one pixel. In windows, since a picture of rays is many times as large.
+    Status add_rays(int across, gl::MarkedRays& rays) {
+        const auto program = this->program(FILTER_RAYS);
+        if (!program) return program.error();
+        const auto veil = veil_over(rays.wanted());
+        if (!veil) return veil.error();
+        const int most = kMostTexels / across;
+        gl::PixelWindow window{0, 0, std::min(most, options_.width), std::min(most, options_.height), across};
+        const auto target = gl::FloatTarget::create(gl_, window.width * across, window.height * across, 1, true);
+        if (!target) return target.error();
+        (*target)->bind();
+        for (int low = 0; low < options_.height; low += window.height)
+            for (int left = 0; left < options_.width; left += window.width) {
+                window.low = std::min(low, options_.height - window.height);
+                window.left = std::min(left, options_.width - window.width);
+                if (!rays.any_wanted(window)) continue;
+                draw_window(**program, window, crop(options_, window) * projection(view_, options_, sample_.x, sample_.y), *veil);
+                rays.add((*target)->read(0), window, left, low);
+            }
+        target_.bind();
+        return Done{};
     }
 
     // Puts the mean of rays where `pixels` asks for them in its fourth channel, and, unless several samples do that, where a mesh ends or
     // has an edge: of four, and of all where these do not agree.
     Status replace_marked(std::vector<float>& pixels) {
-        if (samples_.places.size() == 1) gl::mark_outlines(target_.read_depths(), options_.width, options_.height, pixels);
+        const bool alone = samples_.places.size() == 1;
+        if (alone) gl::mark_outlines(target_.read_depths(), options_.width, options_.height, pixels);
         gl::MarkedRays rays(options_.width, options_.height, pixels);
+        if (Status added = alone ? add_all(rays) : add_passes(rays); !added) return added;
+        rays.put_means(pixels);
+        return Done{};
+    }
+
+    Status add_all(gl::MarkedRays& rays) {
+        if (!rays.any_wanted()) return Done{};
+        if (Status added = add_rays(2, rays); !added || ray_side_ == 2) return added;
+        rays.keep_uneven();
+        return rays.any_wanted() ? add_rays(ray_side_, rays) : Status(Done{});
+    }
+
+    // The rays of one of several samples: their pixels do not adjoin.
+    Status add_passes(gl::MarkedRays& rays) {
         const std::vector<gl::RayPlace> places = gl::ray_places(ray_side_, sample_, samples_.side);
         for (std::size_t k = 0; k < places.size(); ++k) {
             if (k == 4) rays.keep_uneven();
@@ -205,9 +251,10 @@ class Painter {
             if (!found) return found.error();
             rays.add(*found, k);
         }
-        rays.put_means(pixels);
         return Done{};
     }
+
+    static constexpr int kMostTexels = 1024;  // on a side of a target of rays
 
     const gl::Functions& gl_;
     const Asset& asset_;
@@ -216,7 +263,7 @@ class Painter {
     bool counted_;
     Scene scene_;
     View view_;
-    WantedTexture wanted_;
+    std::unique_ptr<gl::Veil> veil_;  // made when first asked for
     gl::SampleGrid samples_;
     int ray_side_;
     Vec2 sample_{};  // at hand

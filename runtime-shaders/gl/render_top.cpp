@@ -4,6 +4,7 @@
 
 #include "gl/program.hpp"
 #include "gl/render.hpp"
+#include "gl/screen.hpp"
 
 namespace burin {
 namespace {
@@ -11,20 +12,6 @@ namespace {
 // Pixels a side of the target that a large picture is drawn in, piece by piece: bounds memory and the time of
 // one draw call, which some drivers limit.
 constexpr int kTile = 512;
-
-struct Screen {
-    explicit Screen(const gl::Functions& functions) : gl(functions) {
-        gl.GenVertexArrays(1, &array);
-        gl.BindVertexArray(array);
-    }
-    ~Screen() { gl.DeleteVertexArrays(1, &array); }
-    void draw() const {
-        gl.DrawArrays(GL_TRIANGLES, 0, 3);
-        gl.Finish();
-    }
-    const gl::Functions& gl;
-    GLuint array = 0;
-};
 
 Result<int> find_detail(const Asset& asset, int wanted) {
     const int count = int(asset.materials.size());
@@ -62,7 +49,7 @@ Result<Image> render_top(const Asset& asset, int width, int height, const TopOpt
     auto target = gl::FloatTarget::create(gl, kTile, kTile, 1, false);
     if (!target) return target.error();
     const gl::DetailTextures textures(gl, material.textures, material.detail);
-    const Screen screen(gl);
+    const gl::Screen screen(gl);
     program->use();
     textures.bind(*program);
     program->set("texel", float(material.detail.size_u / width), float(material.detail.size_v / height));
@@ -75,6 +62,7 @@ Result<Image> render_top(const Asset& asset, int width, int height, const TopOpt
             gl.Viewport(0, 0, std::min(kTile, width - x), std::min(kTile, height - y));
             program->set("first", float(x), float(y));
             screen.draw();
+            gl.Finish();
             store(image, (*target)->read(0), x, y, std::min(kTile, width - x), std::min(kTile, height - y));
         }
     }
@@ -91,7 +79,7 @@ Result<std::vector<ShadedHit>> shade_rays(const PackedTextures& packed, const Pa
     auto target = gl::FloatTarget::create(gl, kTile, kTile, 2, false);
     if (!target) return target.error();
     const gl::DetailTextures textures(gl, packed, detail, residual);
-    const Screen screen(gl);
+    const gl::Screen screen(gl);
     GLuint given = 0;
     gl.GenTextures(1, &given);
     std::vector<ShadedHit> hits(rays.size());
@@ -111,6 +99,7 @@ Result<std::vector<ShadedHit>> shade_rays(const PackedTextures& packed, const Pa
         (*target)->bind();
         gl.Viewport(0, 0, kTile, int((count + kTile - 1) / kTile));
         screen.draw();
+        gl.Finish();
         const std::vector<float> met = (*target)->read(0);
         const std::vector<float> normal = (*target)->read(1);
         for (std::size_t i = 0; i < count; ++i) {

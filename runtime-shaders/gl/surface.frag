@@ -8,8 +8,8 @@ uniform int side;           // rays per side of the pixel: even, 2 to 8
 uniform int cells;          // of the pixel, per side, one for each ray of all its samples
 uniform vec2 first_cell;    // of this sample
 uniform vec2 ray_shift;     // of FILTER_RAYS: by how much it lies beside the middle at grazing angles, in pixels
-uniform vec2 pixel_part;    // width and height of what is filtered, in pixels: below 1 where several pictures are averaged
-uniform highp sampler2D wanted;  // one texel per pixel: 0 where the picture needs no further sample
+uniform int across;         // of FILTER_RAYS: texels that the target has on each side of a pixel, one for each of its rays
+uniform vec2 pixel_part;    // width and height of what is filtered, in texels of the target: below 1 where several pictures are averaged
 layout(location = 0) out vec4 color;
 
 vec2 light_slope;   // metres that the light moves over the plane per metre of fall
@@ -141,12 +141,12 @@ Areas areas_of(BurinRay ray, vec2 along_x, vec2 along_y) {
 
 #endif
 
-#if PIXEL_FILTER == FILTER_REGIONS
-
-// From the middle of a cell, in cells.
-float shift_of(int line) {
+// From the middle of a cell of `cells` to a side, in cells.
+float shift_of(int line, int cells) {
     return cells < LEAST_MOVED_SIDE ? 0.0 : (float(MOVED_TURN(line, cells)) + 0.5) / float(cells) - 0.5;
 }
+
+#if PIXEL_FILTER == FILTER_REGIONS
 
 // Mean colour of side x side rays; w: 0 where all of them leave the object.
 vec4 rays_color(BurinRay ray, vec2 along_x, vec2 along_y) {
@@ -156,7 +156,7 @@ vec4 rays_color(BurinRay ray, vec2 along_x, vec2 along_y) {
     for (int k = 0; k < 64; ++k) {
         vec2 own = vec2(float(k % side), float(k / side));
         vec2 cell = first_cell + own;
-        vec2 shift = vec2(shift_of(int(cell.y + 0.5)), shift_of(int(cell.x + 0.5))) * shifted(ray.slope);
+        vec2 shift = vec2(shift_of(int(cell.y + 0.5), cells), shift_of(int(cell.x + 0.5), cells)) * shifted(ray.slope);
         vec2 at = (own + 0.5 + shift) / float(side) - 0.5;
         BurinRay sample_ray = ray;
         sample_ray.origin = ray.origin + along_x * at.x + along_y * at.y;
@@ -177,7 +177,10 @@ vec4 pixel_color(BurinRay ray, BURIN_OUT(float) mark, BURIN_OUT(float) way) {
     vec2 along_x = look_x;
     vec2 along_y = look_y;
 #if PIXEL_FILTER == FILTER_RAYS
-    vec2 at = ray_shift * shifted(ray.slope);
+    vec2 at = ray_shift;
+    ivec2 own = ivec2(gl_FragCoord.xy) % across;
+    if (across > 1) at = vec2(shift_of(own.y, across), shift_of(own.x, across)) / float(across);
+    at *= shifted(ray.slope);
     ray.origin += along_x * at.x + along_y * at.y;
     return point_color(ray, way);
 #else
@@ -201,7 +204,6 @@ vec4 pixel_color(BurinRay ray, BURIN_OUT(float) mark, BURIN_OUT(float) way) {
 }
 
 void main() {
-    if (texelFetch(wanted, ivec2(gl_FragCoord.xy), 0).x == 0.0) discard;
     to_eye = dot(view, view) > 0.0 ? -view : normalize(eye - world_position);
     vec3 n = normalize(world_normal);
     uv_along_x = dFdx(pattern_uv) * pixel_part.x;
