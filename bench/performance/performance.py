@@ -31,7 +31,8 @@ class Part:
     program: str                 # below build/bench, and a target of the build
     words: list = dataclasses.field(default_factory=list)
     quick: list = dataclasses.field(default_factory=lambda: ["--quick"])
-    scenes: bool = True          # understands --scene and --cache
+    scenes: bool = True          # understands --scene
+    cache: bool = True           # understands --cache
     lines: bool = False          # understands --lines
     pictures: bool = False       # draws plots of its own
 
@@ -44,8 +45,8 @@ PARTS = {
     "tables": Part("runtime/bench_runtime", ["tables"]),
     "grid": Part("runtime/bench_runtime", ["grid"], pictures=True),
     "memory": Part("runtime/bench_runtime", ["memory"]),
-    "pack": Part("pack/bench_pack", quick=["100000"], scenes=False),
-    "shares": Part("reference/bench_reference", quick=["--count", "500"], scenes=False),
+    "pack": Part("pack/bench_pack", quick=["100000"], scenes=False, cache=False),
+    "shares": Part("reference/bench_reference", quick=["--count", "500"], scenes=False, cache=False),
 }
 
 
@@ -78,7 +79,7 @@ def measure(name, scene, arguments):
     base = os.path.join(arguments.results, name + (f".{scene}" if scene else ""))
     with tempfile.TemporaryDirectory(prefix="burin_performance_") as folder:
         lines, output = os.path.join(folder, "lines"), os.path.join(folder, "output")
-        extra = ["--cache", arguments.cache] if part.scenes else []
+        extra = ["--cache", arguments.cache] if part.cache else []
         extra += ["--lines", lines] if part.lines else []
         extra += ["--pictures", os.path.splitext(arguments.out)[0]] if part.pictures else []
         about = {"command": shlex.join([os.path.basename(part.program)] + words), "commit": commit(),

@@ -195,10 +195,13 @@ def rivals_panel(title, lines, across):
     return Panel(title, series, default["dB"], (default[across], default["dB"]))
 
 
+ATRIUM_SERIES = {"areas": "areas", "relief": "relief", "relaxed": "relaxed cones"}  # by the first word of a row
+
+
 def atrium_plot(table):
     series = {}
     for row in table.rows:
-        name = "areas" if row[0].startswith("areas") else "rays in every pixel"
+        name = ATRIUM_SERIES.get(row[0].replace(",", " ").split()[0], "rays in every pixel")
         series.setdefault(name, []).append((float(row[table.column("ms")]), float(row[table.column("PSNR")])))
     points = [point for some in series.values() for point in some]
     x = logarithmic_axis("ms of processor time", [point[0] for point in points], milliseconds)

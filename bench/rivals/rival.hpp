@@ -68,6 +68,9 @@ class RivalMaps {
     GLuint names_[3] = {0, 0, 0};  // heights and cones, normals, shares
 };
 
+// Sets albedos and metal_rough of a program that is in use; it may know of more paints than there are, which then show the first.
+void bind_paints(const gl::Program& program, const std::vector<MapPaint>& paints);
+
 // A primitive cut into triangles whose sides are no longer than `edge`, in uv.
 Primitive subdivide(const Primitive& primitive, double edge);
 

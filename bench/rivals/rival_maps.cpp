@@ -135,11 +135,15 @@ void RivalMaps::bind(const gl::Program& program) const {
     program.set("texels", float(size_), float(size_));
     program.set("drops", float(maps_.highest), float(maps_.lowest));
     program.set("widest", float(kWidestCone));
-    for (std::size_t k = 0; k < maps_.paints.size(); ++k) {
-        const MapPaint& paint = maps_.paints[k];
-        const std::string index = "[" + std::to_string(k) + "]";
-        program.set(("albedos" + index).c_str(), paint.albedo[0], paint.albedo[1], paint.albedo[2]);
-        program.set(("metal_rough" + index).c_str(), paint.metallic, paint.roughness);
+    bind_paints(program, maps_.paints);
+}
+
+void bind_paints(const gl::Program& program, const std::vector<MapPaint>& paints) {
+    for (std::size_t k = 0; k < kMostPaints; ++k) {
+        const MapPaint& paint = paints[k < paints.size() ? k : 0];
+        const auto named = [k](std::string name) { return name.append("[").append(std::to_string(k)).append("]"); };
+        program.set(named("albedos").c_str(), paint.albedo[0], paint.albedo[1], paint.albedo[2]);
+        program.set(named("metal_rough").c_str(), paint.metallic, paint.roughness);
     }
 }
 

@@ -3,6 +3,6 @@
 
 namespace burin::gl::shader_text {
 
-extern const char rival_vert[], rival_frag[];
+extern const char rival_vert[], rival_frag[], geometry_vert[], geometry_frag[];
 
 }  // namespace burin::gl::shader_text

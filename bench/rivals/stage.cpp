@@ -24,13 +24,16 @@ std::string key_of(const bench::Subject& subject) {
     return name;
 }
 
-MapPaint paint_of(const scenes::Part& part) { return {part.color, part.metallic, part.roughness}; }
-
 bench::Extent cut(const bench::Extent& a, const bench::Extent& b) {
     return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}, {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
 }
 
-// The rectangle that a view shows, in uv, of what lies `drop` metres below the object surface or less.
+double milliseconds_since(std::clock_t before) { return double(std::clock() - before) * 1000.0 / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+MapPaint paint_of(const scenes::Part& part) { return {part.color, part.metallic, part.roughness}; }
+
 bench::Extent seen_extent(const bench::PlaneView& view, Vec2 size, double drop) {
     const bench::PlaneCamera camera = bench::camera_of(view, size);
     bench::Extent seen{{1e9, 1e9}, {-1e9, -1e9}};
@@ -48,10 +51,6 @@ bench::Extent seen_extent(const bench::PlaneView& view, Vec2 size, double drop) 
             }
     return seen;
 }
-
-double milliseconds_since(std::clock_t before) { return double(std::clock() - before) * 1000.0 / CLOCKS_PER_SEC; }
-
-}  // namespace
 
 SceneMaps::SceneMaps(const gl::Context& context, const bench::Subject& subject, int finest, const std::string& cache)
     : context_(context), cache_(cache), key_(key_of(subject)),
@@ -73,6 +72,14 @@ double time_once(const Draw& draw) {
     return milliseconds_since(before);
 }
 
+Result<Draw> prepare_burin(const gl::Context& context, const Asset& asset, const RenderOptions& options) {
+    auto prepared = gl::PreparedAsset::load(context, asset, options);
+    if (!prepared) return prepared.error();
+    auto kept = std::make_shared<gl::PreparedAsset>(std::move(*prepared));
+    if (auto first = kept->draw(); !first) return first.error();
+    return Draw([kept] { return *kept->draw(); });
+}
+
 Stage::Stage(const gl::Context& context, const bench::Subject& subject, SceneMaps& maps, const bench::PlaneView& view, const std::string& cache)
     : context_(context), subject_(subject), maps_(maps), view_(view), truth_(bench::draw_truth(subject, view, cache)),
       asset_(bench::asset_of(subject, bench::extent_of(view, subject.prepared.resolved))),
@@ -89,11 +96,10 @@ bool Stage::shows_outline() const {
 double Stage::pixel_in_uv() const { return view_.pixel / std::max(subject_.prepared.resolved.size.x, subject_.prepared.resolved.size.y); }
 
 Result<Rival*> Stage::rival_of(const RivalSettings& settings) {
-    const bool triangles = settings.technique == Technique::triangles;
-    auto& drawn = rivals_[{int(settings.technique), triangles ? settings.edge : 0.0}];
+    auto& drawn = rivals_[key_of(settings)];
     if (drawn) return &*drawn->rival;
     auto made = std::make_unique<Drawn>(Drawn{asset_, {}});
-    if (triangles) {
+    if (settings.technique == Technique::triangles) {
         // No further around the window than a ray that enters it can reach.
         const Vec2 size = subject_.prepared.resolved.size;
         const double deep = maps_.surface().lowest, reach = deep / std::tan(0.5 * view_.elevation * 0.0174533);
@@ -127,11 +133,7 @@ Result<Draw> Stage::rival(const RivalSettings& settings) {
 Result<Draw> Stage::burin(const std::function<void(RenderOptions&)>& apply) {
     RenderOptions options = options_;
     apply(options);
-    auto prepared = gl::PreparedAsset::load(context_, asset_, options);
-    if (!prepared) return prepared.error();
-    auto kept = std::make_shared<gl::PreparedAsset>(std::move(*prepared));
-    if (auto first = kept->draw(); !first) return first.error();
-    return Draw([kept] { return *kept->draw(); });
+    return prepare_burin(context_, asset_, options);
 }
 
 Trial Stage::measure(const Draw& draw) const {

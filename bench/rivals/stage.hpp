@@ -20,6 +20,11 @@ struct Trial {
     double milliseconds = 0.0;  // processor time of a picture; programs, textures and meshes were there already
 };
 
+// What the ground of a part is made of.
+MapPaint paint_of(const scenes::Part& part);
+// The rectangle that a view shows, in uv, of what lies `drop` metres below the object surface or less.
+bench::Extent seen_extent(const bench::PlaneView& view, Vec2 size, double drop);
+
 // Maps of a scene, made when first asked for.
 class SceneMaps {
   public:
@@ -39,6 +44,8 @@ class SceneMaps {
 // Anything that draws the picture once.
 using Draw = std::function<gl::Accumulator()>;
 double time_once(const Draw& draw);  // milliseconds of processor time
+// burin itself, loaded and with its programs built. Context and asset must outlive it.
+Result<Draw> prepare_burin(const gl::Context& context, const Asset& asset, const RenderOptions& options);
 
 class Stage {
   public:
@@ -49,11 +56,15 @@ class Stage {
     const bench::TruthPicture& truth() const { return truth_; }
     bool shows_features() const;
     bool shows_outline() const;  // the plane ends within the picture
+    const RenderOptions& options() const { return options_; }
+    const Asset& asset() const { return asset_; }
     MapBytes bytes_of(const RivalSettings& settings) const { return rivals::bytes_of(settings, maps_.surface()); }
     double pixel_in_uv() const;  // at the place looked at
 
     // Ready to be drawn: what is loaded once is loaded.
     Result<Draw> rival(const RivalSettings& settings);
+    // That a ready rival draws. Requires: rival(settings) went well.
+    std::size_t triangles_of(const RivalSettings& settings) const { return rivals_.at(key_of(settings))->asset.primitives[0].indices.size() / 3; }
     Result<Draw> burin(const std::function<void(RenderOptions&)>& apply);
 
     // Draws once.
@@ -63,6 +74,9 @@ class Stage {
   private:
     // Of a technique, and for triangles of the distance of their vertices.
     Result<Rival*> rival_of(const RivalSettings& settings);
+    static std::pair<int, double> key_of(const RivalSettings& settings) {
+        return {int(settings.technique), settings.technique == Technique::triangles ? settings.edge : 0.0};
+    }
 
     const gl::Context& context_;
     const bench::Subject& subject_;

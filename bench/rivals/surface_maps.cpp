@@ -24,25 +24,6 @@ struct Samples {
     explicit Samples(std::size_t count) : heights(count), normals(count * 2), paints(count) {}
 };
 
-// Of the pattern's materials those that some style uses, the base first.
-struct Paints {
-    std::vector<MapPaint> list;
-    std::vector<std::uint8_t> of_style;
-};
-
-Paints paints_of(const ResolvedPattern& pattern, const MapPaint& base) {
-    Paints paints{{base}, {}};
-    for (const Style& style : pattern.styles) {
-        const Material& own = pattern.materials[style.material];
-        MapPaint paint = base;
-        if (own.overrides) paint = {{own.base_color[0], own.base_color[1], own.base_color[2]}, own.metallic, own.roughness};
-        const auto found = std::find(paints.list.begin(), paints.list.end(), paint);
-        paints.of_style.push_back(std::uint8_t(found - paints.list.begin()));
-        if (found == paints.list.end()) paints.list.push_back(paint);
-    }
-    return paints;
-}
-
 // Where an element may act: so far around its chord.
 struct Zone {
     Vec2 from, to;
@@ -272,6 +253,19 @@ MapLevel next_level(const MapLevel& fine, std::size_t channels) {
 }
 
 }  // namespace
+
+Paints paints_of(const ResolvedPattern& pattern, const MapPaint& base) {
+    Paints paints{{base}, {}};
+    for (const Style& style : pattern.styles) {
+        const Material& own = pattern.materials[style.material];
+        MapPaint paint = base;
+        if (own.overrides) paint = {{own.base_color[0], own.base_color[1], own.base_color[2]}, own.metallic, own.roughness};
+        const auto found = std::find(paints.list.begin(), paints.list.end(), paint);
+        paints.of_style.push_back(std::uint8_t(found - paints.list.begin()));
+        if (found == paints.list.end()) paints.list.push_back(paint);
+    }
+    return paints;
+}
 
 std::size_t SurfaceMaps::level_of(int size) const {
     std::size_t level = 0;

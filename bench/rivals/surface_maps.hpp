@@ -19,6 +19,13 @@ struct MapPaint {
     bool operator==(const MapPaint&) const = default;
 };
 
+// Of the pattern's materials those that some style uses, the base first.
+struct Paints {
+    std::vector<MapPaint> list;
+    std::vector<std::uint8_t> of_style;
+};
+Paints paints_of(const ResolvedPattern& pattern, const MapPaint& base);
+
 // size x size texels; row 0 lies at v = 0. Each is the mean of those that it covers in the level before.
 struct MapLevel {
     int size = 0;
@@ -27,12 +34,14 @@ struct MapLevel {
     std::vector<std::uint8_t> shares;    // of materials 1, 2, ... in 1 / 255, `SurfaceMaps::channels()` of them
 };
 
+inline constexpr std::size_t kMostPaints = 5;
+
 struct SurfaceMaps {
     Vec2 metres;                 // of the tile
     bool repeat = true;
     double highest = 0.0, lowest = 0.0;  // metres below the object surface
     double outer = 0.0;                  // the same of what lies around a map that ends, ground
-    std::vector<MapPaint> paints;        // at least one, at most five
+    std::vector<MapPaint> paints;        // at least one, at most kMostPaints
     std::vector<MapLevel> levels;        // the finest first, the last one texel
 
     std::size_t channels() const { return paints.size() - 1; }

@@ -1,69 +1,83 @@
-// Question: what do rays and areas take, and how far are they from the truth, in a whole scene? The figures 10 and 11 of 2010: its atrium
-// by 1, 2 and 4 samples in every pixel and by region sampling, here burin's own atrium from its own camera.
+// Question: what do rays, areas and relief mapping take, and how far are they from the truth, in a whole scene? The figures 10 and 11 of 2010:
+// its atrium by relief mapping with and without antialiasing, by 1, 2 and 4 samples in every pixel, and by region sampling; here burin's
+// own atrium from its own camera.
 //
 // The picture to compare with is 256 rays in every pixel by the same shader: what each ray meets is held against the evaluator in double
 // precision by `hits`, part by part, so that only the filter is left to judge. Pixels that an edge of the mesh crosses do not count: one
-// sample cannot show them, whatever it does with the pattern.
+// sample cannot show them, whatever it does with the pattern. The lamp and the soft surround light it for all alike, not the room: burin's
+// shade of the room in grooves comes from their profiles, which a map does not know.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include <burin/image_io.hpp>
+#include <rivals/furnished.hpp>
 
 #include "image_error.hpp"
 #include "questions.hpp"
-#include "timing.hpp"
 
 namespace burin::bench {
 namespace {
 
-// A row of the table: how many samples of a technique a pixel gets, and the frames per second that 2010 had for it on its own machine and
-// atrium; 0: not given.
+using rivals::RivalSettings, rivals::Technique;
+
+// A row of the table. `paper`: the frames per second that 2010 had for it on its own machine and atrium; 0: not given.
 struct Row {
+    std::string name, setting;
+    double paper = 0.0, bytes = 0.0;
+    rivals::Draw draw;
+    std::vector<double> milliseconds;
+};
+
+struct BurinRow {
     const char* name;
+    Antialiasing antialiasing;
+    int samples, rays;
+    double paper;
+};
+constexpr BurinRow kBurin[] = {
+    {"1 sample", Antialiasing::points, 1, 4, 65.3},
+    {"2 samples", Antialiasing::points, 2, 4, 29.0},
+    {"4 samples", Antialiasing::points, 4, 4, 17.24},
+    {"16 samples", Antialiasing::points, 16, 4, 0.0},
+    {"areas, 4 rays where features meet", Antialiasing::regions, 1, 4, 33.6},
+    {"areas, 16 rays where features meet", Antialiasing::regions, 1, 16, 0.0},
+};
+
+struct RivalRow {
+    const char* name;
+    Technique technique;
     int samples;
     double paper;
 };
-
-// A way to draw the scene, timed once for all its rows. Another renderer of the same meshes is one more of these.
-struct Technique {
-    PassTimer::Draw draw;
-    std::vector<Row> rows;
+constexpr RivalRow kRivals[] = {
+    {"relief mapping", Technique::relief, 1, 51.8},
+    {"relief mapping with 4x full-screen antialiasing", Technique::relief, 4, 33.1},
+    {"relief mapping with 16x full-screen antialiasing", Technique::relief, 16, 0.0},
+    {"relaxed cones", Technique::cones, 1, 0.0},
+    {"relaxed cones with 4x full-screen antialiasing", Technique::cones, 4, 0.0},
+    {"relaxed cones with 16x full-screen antialiasing", Technique::cones, 16, 0.0},
 };
+constexpr int kTexels = 2048;  // per side of every material's map
 
 struct Atrium {
+    scenes::Scene scene;
     Asset asset;
     Asset bare;  // without patterns
     RenderOptions options;
 };
 
 Result<Atrium> open_atrium(const Settings& settings) {
-    auto opened = open_scene(scenes::find_scene("atrium")->make());
+    scenes::Scene scene = scenes::find_scene("atrium")->make();
+    scene.view.room = false;
+    auto opened = open_scene(scene);
     if (!opened) return opened.error();
-    Atrium atrium{opened->asset, std::move(opened->asset), opened->options};
+    Atrium atrium{std::move(scene), opened->asset, std::move(opened->asset), opened->options};
     for (MaterialInfo& material : atrium.bare.materials) material.has_detail = false;
     atrium.options.width = settings.quick ? 200 : 400;
     atrium.options.height = settings.quick ? 150 : 300;
     atrium.options.backend = settings.backend;
     return atrium;
-}
-
-PassTimer::Draw draw_with(const Asset& asset, RenderOptions options, Antialiasing antialiasing, int rays = 4) {
-    options.antialiasing = antialiasing;
-    options.rays = rays;
-    return [&asset, options](int samples) mutable {
-        options.samples = samples;
-        return render_asset(asset, options);
-    };
-}
-
-std::vector<Technique> techniques(const Atrium& atrium) {
-    return {
-        {draw_with(atrium.asset, atrium.options, Antialiasing::points),
-         {{"1 sample", 1, 65.3}, {"2 samples", 2, 29.0}, {"4 samples", 4, 17.24}, {"16 samples", 16, 0.0}}},
-        {draw_with(atrium.asset, atrium.options, Antialiasing::regions), {{"areas, 4 rays where features meet", 1, 33.6}}},
-        {draw_with(atrium.asset, atrium.options, Antialiasing::regions, 16), {{"areas, 16 rays where features meet", 1, 0.0}}},
-    };
 }
 
 bool differ(const RgbaImage& a, const RgbaImage& b, std::size_t pixel, int most) {
@@ -79,9 +93,13 @@ double to_linear(std::uint8_t code) {
 
 // Pixels count where the pattern shows, and no edge of the mesh.
 Result<TruthPicture> draw_target(const Atrium& atrium) {
-    const auto many = draw_with(atrium.asset, atrium.options, Antialiasing::points)(256);
-    const auto bare = draw_with(atrium.bare, atrium.options, Antialiasing::points);
-    const auto smooth = bare(64), single = bare(1);
+    const auto draw = [&](const Asset& asset, int samples) {
+        RenderOptions options = atrium.options;
+        options.antialiasing = Antialiasing::points;
+        options.samples = samples;
+        return render_asset(asset, options);
+    };
+    const auto many = draw(atrium.asset, 256), smooth = draw(atrium.bare, 64), single = draw(atrium.bare, 1);
     for (const auto* picture : {&many, &smooth, &single})
         if (!*picture) return picture->error();
     TruthPicture truth{atrium.options.width, atrium.options.height, {}, {}};
@@ -92,6 +110,49 @@ Result<TruthPicture> draw_target(const Atrium& atrium) {
     return truth;
 }
 
+Result<std::vector<Row>> burin_rows(const gl::Context& context, const Atrium& atrium) {
+    double bytes = 0.0;
+    for (const MaterialInfo& material : atrium.asset.materials)
+        bytes += 4.0 * double(material.textures.grid.size() + material.textures.data.size());
+    std::vector<Row> rows;
+    for (const BurinRow& row : kBurin) {
+        RenderOptions options = atrium.options;
+        options.antialiasing = row.antialiasing;
+        options.samples = row.samples;
+        options.rays = row.rays;
+        auto draw = rivals::prepare_burin(context, atrium.asset, options);
+        if (!draw) return draw.error();
+        rows.push_back({row.name, "", row.paper, bytes, *draw, {}});
+    }
+    return rows;
+}
+
+std::string text_of(const RivalSettings& settings) {
+    char text[80];
+    std::snprintf(text, sizeof text, "%d², %d steps, %d halvings, bias %g%s", settings.size, settings.steps, settings.refinements, double(settings.bias),
+                  settings.samples > 1 && settings.places == rivals::Places::hammersley ? ", Hammersley" : "");
+    return text;
+}
+
+// Each with the setting that suits it best.
+Result<std::vector<Row>> rival_rows(rivals::FurnishedScene& furnished, const TruthPicture& truth) {
+    std::vector<Row> rows;
+    for (const RivalRow& row : kRivals) {
+        RivalSettings settings;
+        settings.technique = row.technique;
+        settings.size = kTexels;
+        settings.samples = row.samples;
+        settings.steps = 64;
+        settings.refinements = 8;
+        settings.wide_heights = true;
+        const bool outlines = row.samples > 1;
+        if (const auto first = furnished.draw(settings, outlines); !first) return first.error();
+        settings = rivals::tune_rival(settings, [&](const RivalSettings& tried) { return compare_pictures((*furnished.draw(tried, outlines))().image(), truth).psnr; });
+        rows.push_back({row.name, text_of(settings), row.paper, furnished.bytes_of(settings).plain, *furnished.draw(settings, outlines), {}});
+    }
+    return rows;
+}
+
 void save(const Settings& settings, std::string name, const RgbaImage& picture, const TruthPicture& truth) {
     if (settings.pictures.empty()) return;
     std::erase(name, ',');
@@ -100,33 +161,43 @@ void save(const Settings& settings, std::string name, const RgbaImage& picture, 
         std::fprintf(stderr, "%s\n", written.error().message.c_str());
 }
 
-void print_row(const Settings& settings, const Technique& technique, const Row& row, double seconds, const TruthPicture& truth) {
-    const auto picture = technique.draw(row.samples);
-    if (!picture) {
-        std::printf("| %s | %s |\n", row.name, picture.error().message.c_str());
-        return;
-    }
-    const ImageError error = compare_pictures(*picture, truth);
+void print_row(const Settings& settings, Row& row, const TruthPicture& truth) {
+    const RgbaImage picture = row.draw().image();
+    const ImageError error = compare_pictures(picture, truth);
+    const auto middle = row.milliseconds.begin() + std::ptrdiff_t(row.milliseconds.size() / 2);
+    std::nth_element(row.milliseconds.begin(), middle, row.milliseconds.end());
     char paper[20] = "";
     if (row.paper > 0.0) std::snprintf(paper, sizeof paper, "%g", row.paper);
-    std::printf("| %s | %.0f | %.2f | %.4f | %d | %s |\n", row.name, 1e3 * seconds * row.samples, error.psnr, error.ssim, error.bad_pixels, paper);
+    std::printf("| %s | %s | %.0f | %.2f | %.4f | %d | %.1f | %s |\n", row.name.c_str(), row.setting.c_str(), *middle, error.psnr, error.ssim,
+                error.bad_pixels, row.bytes / 1000.0, paper);
     std::fflush(stdout);
-    save(settings, row.name, *picture, truth);
+    save(settings, row.name, picture, truth);
 }
 
-void print_frames(const Settings& settings, const Atrium& atrium, const TruthPicture& truth) {
-    constexpr int kTries = 3;
+void print_frames(const Settings& settings, const TruthPicture& truth, std::vector<Row>& rows) {
+    constexpr int kTries = 5;
     std::printf("\n### Atrium\n\n%d x %d pixels, of which %td show a pattern and no edge of the mesh. Processor time of a frame, ms: the median of %d tries that take\n"
-                "turns; loading and building programs not counted. Samples beyond four go only where pixels are uneven: the time of 16 is a bound. Errors against 256 rays in every pixel of the same shader. Paper: frames per second.\n\n"
-                "| technique | ms | PSNR | SSIM | off | paper fps |\n|---|--:|--:|--:|--:|--:|\n",
+                "turns; loading and building programs not counted. Errors against 256 rays in every pixel of the same shader. kB: of all materials' textures, a\n"
+                "rival's with mips. Rivals: maps of that size for every material; the mip bias and places of least error, then as few steps as lose nothing of it.\n"
+                "Paper: frames per second; relief mapping with maps of 1024², antialiased of 512².\n\n"
+                "| technique | setting | ms | PSNR | SSIM | off | kB | paper fps |\n|---|---|--:|--:|--:|--:|--:|--:|\n",
                 truth.width, truth.height, std::count(truth.feature.begin(), truth.feature.end(), 1), kTries);
-    const std::vector<Technique> all = techniques(atrium);
-    std::vector<PassTimer> timers;
-    for (const Technique& technique : all) timers.emplace_back(technique.draw);
     for (int k = 0; k < kTries; ++k)
-        for (PassTimer& timer : timers) timer.try_once();
-    for (std::size_t i = 0; i < all.size(); ++i)
-        for (const Row& row : all[i].rows) print_row(settings, all[i], row, timers[i].median_seconds(), truth);
+        for (Row& row : rows) row.milliseconds.push_back(rivals::time_once(row.draw));
+    for (Row& row : rows) print_row(settings, row, truth);
+}
+
+Status compare_techniques(const Settings& settings, const Atrium& atrium, const TruthPicture& truth) {
+    const auto context = gl::open_context(settings.backend);
+    if (!context) return context.error();
+    auto furnished = rivals::FurnishedScene::prepare(**context, atrium.scene, atrium.asset, atrium.options, kTexels, settings.cache);
+    if (!furnished) return furnished.error();
+    auto rows = rival_rows(*furnished, truth);
+    auto own = burin_rows(**context, atrium);
+    if (!rows || !own) return rows ? own.error() : rows.error();
+    rows->insert(rows->end(), own->begin(), own->end());
+    print_frames(settings, truth, *rows);
+    return Done{};
 }
 
 }  // namespace
@@ -135,11 +206,8 @@ void ask_atrium(const Settings& settings) {
     if (!settings.scene.empty() && settings.scene != "atrium") return;
     const auto atrium = open_atrium(settings);
     const auto truth = atrium ? draw_target(*atrium) : Result<TruthPicture>(atrium.error());
-    if (!truth) {
-        std::printf("\nAtrium: %s\n", truth.error().message.c_str());
-        return;
-    }
-    print_frames(settings, *atrium, *truth);
+    const Status done = truth ? compare_techniques(settings, *atrium, *truth) : Status(truth.error());
+    if (!done) std::printf("\nAtrium: %s\n", done.error().message.c_str());
 }
 
 }  // namespace burin::bench

@@ -14,7 +14,6 @@ class PassTimer {
   public:
     using Draw = std::function<Result<RgbaImage>(int samples)>;
 
-    explicit PassTimer(Draw draw) : draw_(std::move(draw)) {}
     // Both must outlive it.
     PassTimer(const Asset& asset, const RenderOptions& options);
     void try_once();

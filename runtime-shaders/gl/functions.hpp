@@ -61,6 +61,7 @@ namespace burin::gl {
     F(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample) \
     F(BLITFRAMEBUFFER, BlitFramebuffer)              \
     F(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer) \
+    F(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D)    \
     F(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) \
     F(DRAWBUFFERS, DrawBuffers)                      \
     F(READBUFFER, ReadBuffer)                        \
