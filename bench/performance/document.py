@@ -12,6 +12,7 @@ VIEWS = ["near", "middle", "far", "far away", "60 degrees", "80 degrees"]
 TABLES = {
     "rivals": ("rivals", "At burin's own error", 2), "fixed": ("rivals", "At 30 dB", 2),
     "techniques": ("rivals", "Every technique at burin's own error", 2),
+    "figure12": ("figure12", "Near and far", 3),
     "geometry": ("geometry", "Time at equal error", 2), "geometry memory": ("geometry", "Memory at equal error", 1),
     "reference": ("reference", "The reference renderer", 2), "shares": ("shares", "Shares of footprints", 1),
     "atrium": ("atrium", "Atrium", 1), "tables": ("tables", "The tables of the papers", 2),

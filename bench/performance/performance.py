@@ -39,6 +39,7 @@ class Part:
 
 PARTS = {
     "rivals": Part("rivals/bench_rivals", quick=["--quick", "--finest", "4096"], lines=True),
+    "figure12": Part("rivals/bench_figure12"),
     "geometry": Part("geometry/bench_geometry"),
     "reference": Part("runtime/bench_runtime", ["reference"]),
     "atrium": Part("runtime/bench_runtime", ["atrium"], scenes=False),

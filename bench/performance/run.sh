@@ -9,7 +9,7 @@ case " $* " in
     source scripts/packages.sh
     install_packages build test
     cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release
-    cmake --build build --target bench_rivals bench_geometry bench_runtime bench_pack bench_reference
+    cmake --build build --target bench_rivals bench_figure12 bench_geometry bench_runtime bench_pack bench_reference
     ;;
 esac
 exec /usr/bin/python3 -B bench/performance/performance.py "$@"

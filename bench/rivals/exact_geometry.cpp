@@ -89,7 +89,7 @@ class PrimitiveMaker {
 };
 
 // Pattern space to the world of asset_of: its third axis is up, so that triangles turn around.
-std::array<float, 3> place(const ResolvedPattern& pattern, const reference::Vec3& p) {
+std::array<float, 3> in_world(const ResolvedPattern& pattern, const reference::Vec3& p) {
     return {float(p.x - 0.5 * pattern.size.x), float(p.z - pattern.base_offset), float(p.y - 0.5 * pattern.size.y)};
 }
 
@@ -98,10 +98,12 @@ Primitive primitive_of(const ResolvedPattern& pattern, const Paints& paints, con
     for (std::size_t t = 0; t < tile.triangles.size(); ++t) {
         const auto& [a, b, c] = tile.triangles[t];
         const reference::Vec3 &p = tile.positions[a], &q = tile.positions[b], &r = tile.positions[c];
-        const reference::Vec3 n = unit(cross(q - p, r - p));
+        const reference::Vec3 across = cross(q - p, r - p);
+        if (dot(across, across) == 0.0) continue;  // it shows nothing, and has no normal
+        const reference::Vec3 n = unit(across);
         const std::uint32_t element = tile.origins[t].element;
         const int paint = element < pattern.elements.size() ? paints.of_style[pattern.elements[element].style] : 0;
-        maker.add({place(pattern, p), place(pattern, r), place(pattern, q)}, {float(n.x), float(n.z), float(n.y)}, paint);
+        maker.add({in_world(pattern, p), in_world(pattern, r), in_world(pattern, q)}, {float(n.x), float(n.z), float(n.y)}, paint);
     }
     return maker.take();
 }
@@ -113,7 +115,7 @@ Primitive surroundings_of(const ResolvedPattern& pattern) {
     const Vec2 low[] = {{-far, -far}, {-far, size.y}, {-far, 0}, {size.x, 0}}, high[] = {{far, 0}, {far, far}, {0, size.y}, {far, size.y}};
     PrimitiveMaker maker;
     for (int i = 0; i < 4; ++i) {
-        const auto at = [&](double x, double y) { return place(pattern, {x, y, z}); };
+        const auto at = [&](double x, double y) { return in_world(pattern, {x, y, z}); };
         const auto a = at(low[i].x, low[i].y), b = at(high[i].x, low[i].y), c = at(high[i].x, high[i].y), d = at(low[i].x, high[i].y);
         maker.add({a, c, b}, {0.0f, 1.0f, 0.0f}, 0);
         maker.add({a, d, c}, {0.0f, 1.0f, 0.0f}, 0);
@@ -161,6 +163,20 @@ struct ExactGeometry::State {
     glm::mat4 to_light{1.0f};
     double texel = 0.0;  // of the depth map, metres
     std::array<float, 4> window{};
+
+    // The tiles and the lamp's view of them, for relief that reaches `deep` below the object surface.
+    void place(const ResolvedPattern& pattern, double deep) {
+        const bool repeat = pattern.wrap == Wrap::repeat;
+        const bench::Extent needed = needed_extent(stage.view(), pattern, deep), whole = bench::extent_of(stage.view(), pattern);
+        const auto first = [&](double low) { return repeat ? int(std::floor(low)) : 0; };
+        const auto last = [&](double high) { return repeat ? int(std::ceil(high)) : 1; };
+        for (int j = first(needed.low.y); j < last(needed.high.y); ++j)
+            for (int i = first(needed.low.x); i < last(needed.high.x); ++i) shifts.push_back({i * pattern.size.x, 0.0, j * pattern.size.y});
+        to_light = glm::mat4(light_matrix(stage.view(), pattern.size, needed, deep));
+        texel = std::max((needed.high.x - needed.low.x) * pattern.size.x, (needed.high.y - needed.low.y) * pattern.size.y) / settings.shadow_texels;
+        const auto at = [](double uv, double size) { return float((uv - 0.5) * size); };
+        window = {at(whole.low.x, pattern.size.x), at(whole.low.y, pattern.size.y), at(whole.high.x, pattern.size.x), at(whole.high.y, pattern.size.y)};
+    }
 
     void draw_tiles(const gl::Program& program) const {
         for (const glm::vec3& shift : shifts) {
@@ -220,20 +236,8 @@ Result<ExactGeometry> ExactGeometry::load(const gl::Context& context, const benc
     state->tile = std::make_unique<gl::Mesh>(gl, primitive);
     state->corners = primitive.positions.size() / 3;
     state->triangles = primitive.indices.size() / 3;
-    const double deep = pattern.base_offset - tile.lowest;
-    const bool repeat = pattern.wrap == Wrap::repeat;
-    bench::Extent needed = needed_extent(stage.view(), pattern, deep);
-    if (!repeat) state->surroundings = std::make_unique<gl::Mesh>(gl, surroundings_of(pattern));
-    const auto first = [&](double low) { return repeat ? int(std::floor(low)) : 0; };
-    const auto last = [&](double high) { return repeat ? int(std::ceil(high)) : 1; };
-    for (int j = first(needed.low.y); j < last(needed.high.y); ++j)
-        for (int i = first(needed.low.x); i < last(needed.high.x); ++i) state->shifts.push_back({i * pattern.size.x, 0.0, j * pattern.size.y});
-    state->to_light = glm::mat4(light_matrix(stage.view(), pattern.size, needed, deep));
-    const double across = std::max((needed.high.x - needed.low.x) * pattern.size.x, (needed.high.y - needed.low.y) * pattern.size.y);
-    state->texel = across / settings.shadow_texels;
-    const bench::Extent whole = bench::extent_of(stage.view(), pattern);
-    const auto at = [](double uv, double size) { return float((uv - 0.5) * size); };
-    state->window = {at(whole.low.x, pattern.size.x), at(whole.low.y, pattern.size.y), at(whole.high.x, pattern.size.x), at(whole.high.y, pattern.size.y)};
+    if (pattern.wrap == Wrap::clamp) state->surroundings = std::make_unique<gl::Mesh>(gl, surroundings_of(pattern));
+    state->place(pattern, pattern.base_offset - tile.lowest);
     return ExactGeometry(std::move(state));
 }
 
