@@ -1,5 +1,5 @@
 // A facet in the lamp's light, its shadow from a depth map. With GEOMETRY_DEPTH that map itself. Stands behind gl/lamp.glsl.
-in vec3 world_position;
+centroid in vec3 world_position;
 flat in vec3 facet_normal;
 flat in int facet_paint;
 uniform sampler2DShadow from_light;

@@ -4,7 +4,7 @@ uniform vec3 shift;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 paint;  // x: which
-out vec3 world_position;
+centroid out vec3 world_position;  // within the facet, or its neighbour would throw a shadow on what lies beyond the crease
 flat out vec3 facet_normal;
 flat out int facet_paint;
 
