@@ -262,9 +262,6 @@ gl::Accumulator ExactGeometry::draw() {
 
 std::size_t ExactGeometry::drawn_triangles() const { return state_->triangles * state_->shifts.size(); }
 
-double ExactGeometry::bytes() const {
-    const double texels = double(state_->shadow->size());
-    return 16.0 * double(state_->corners) + 12.0 * double(state_->triangles) + 4.0 * texels * texels;
-}
+double ExactGeometry::bytes() const { return 16.0 * double(state_->corners) + 12.0 * double(state_->triangles); }
 
 }  // namespace burin::rivals

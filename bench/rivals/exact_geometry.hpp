@@ -12,7 +12,7 @@ namespace burin::rivals {
 
 struct GeometrySettings {
     int passes = 1;           // of the picture, shifted by parts of a pixel
-    bool coverage = true;     // four samples of coverage per pixel in each pass
+    bool coverage = false;    // four samples of coverage per pixel, of which a facet is shaded once; for one pass, since they reach its borders
     int shadow_texels = 1024; // per side of the depth map
 };
 
@@ -27,7 +27,7 @@ class ExactGeometry {
 
     gl::Accumulator draw();
     std::size_t drawn_triangles() const;  // of all tiles that the view needs
-    double bytes() const;                 // of one tile and the depth map: 16 bytes a corner, its normal packed, 12 a triangle, 4 a texel
+    double bytes() const;                 // of one tile: 16 a corner, its normal packed, 12 a triangle; the depth map comes on top, 4 a texel
 
   private:
     struct State;
