@@ -120,7 +120,7 @@ Result<std::vector<Way>> ways_of(const Scene& scene) {
     Result<Way> found[] = {geometry_way(scene, "geometry, 4 samples of coverage", {.passes = 1, .coverage = true}, scene.paper.geometry),
                            geometry_way(scene, "geometry, 4 samples", {.passes = 4, .coverage = false}, 0.0),
                            geometry_way(scene, "geometry, 16 samples", {.passes = 16, .coverage = false}, 0.0),
-                           rival_way(scene, Technique::triangles, 1024, scene.paper.tessellation),
+                           rival_way(scene, Technique::triangles, 4096, scene.paper.tessellation),
                            rival_way(scene, Technique::relief, 512, scene.paper.relief),
                            rival_way(scene, Technique::relief, 4096, 0.0),
                            paths_way(scene, "paths, 4 samples", four, scene.paper.paths),

@@ -32,6 +32,7 @@ ATRIUM = """### Atrium
 | 4 samples | 1000 | 26.00 | 0.8 | 0 | 17.24 |
 | 16 samples | 4000 | 34.00 | 0.9 | 0 |  |
 | areas, 4 rays where features meet | 800 | 30.00 | 0.9 | 0 | 33.6 |
+| relief mapping with 4x full-screen antialiasing | 400 | 25.00 | 0.8 | 9 | 33.1 |
 """
 PACK = """## Pack
 
@@ -96,6 +97,7 @@ def check_text(text):
     expect(figure(text, "Raster rivals: bytes of the map over burin's |")[2].startswith("100 to 900"), "bytes")
     expect(figure(text, "Atrium: areas")[3] == "met", "areas take less time and have less error")
     expect(figure(text, "… time of samples at the error of areas")[2] == "2.5", "half way in dB is half way in the logarithm of time")
+    expect(figure(text, "… relief mapping")[2] == "400 against 800 ms, 25.00 against 30.00 dB", "relief mapping beside areas")
     expect(block(text, "geometry").strip() == "Not measured." and figure(text, "Pack: 10^6")[2] == "not measured", "what is missing is called so")
     runs = block(text, "runs")
     expect("c0ffee1" in runs and "c0ffee2" in runs and "some renderer" in runs and "| geometry | not measured" in runs, "runs with commits")
