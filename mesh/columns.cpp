@@ -106,21 +106,25 @@ class Stack {
     Stack(const LocalGeometry& geometry, const Gathered& gathered, const BrushBins& bins, const ColumnOptions& options)
         : geometry_(geometry), gathered_(gathered), bins_(bins), options_(options) {}
 
-    void find(Vec2 p, double level, std::vector<Boundary>& out) {
+    void find(Vec2 p, double level, Columns& out) {
         adds_.clear(), cuts_.clear(), left_.clear();
         const Boundary bottom{{{0, 0}, options_.bottom}, {kGround, kWall}}, ground{{{0, 0}, level}, {kGround, kGround}};
         adds_.push_back({options_.bottom, level, bottom, ground});
         for (const std::uint32_t i : bins_.at(p)) {
             const Brush& brush = geometry_.brushes[i];
-            if (std::abs(brush.level - level) <= options_.level_tolerance && lies_over(brush, p)) take(brush, p, bottom);
+            if (std::abs(brush.level - level) > options_.level_tolerance || !lies_over(brush, p)) continue;
+            take(brush, p, bottom);
+            out.brushes.push_back(i);
         }
         unite(adds_);
         unite(cuts_);
         subtract();
         for (const Stretch& stretch : left_) {
-            out.push_back(stretch.at_low);
-            out.push_back(stretch.at_high);
+            out.boundaries.push_back(stretch.at_low);
+            out.boundaries.push_back(stretch.at_high);
         }
+        out.first.push_back(static_cast<std::uint32_t>(out.boundaries.size()));
+        out.first_brush.push_back(static_cast<std::uint32_t>(out.brushes.size()));
     }
 
   private:
@@ -179,6 +183,14 @@ class Stack {
     std::vector<Stretch> adds_, cuts_, left_;
 };
 
+// Ranges of one list, given by where they end, behind those of another.
+template <typename Item>
+void append(const std::vector<Item>& items, const std::vector<std::uint32_t>& ends, std::vector<Item>& all, std::vector<std::uint32_t>& all_ends) {
+    const auto before = static_cast<std::uint32_t>(all.size());
+    for (const std::uint32_t end : ends) all_ends.push_back(before + end);
+    all.insert(all.end(), items.begin(), items.end());
+}
+
 }  // namespace
 
 Columns stack_columns(const LocalGeometry& geometry, const Gathered& gathered, const BrushBins& bins, const Plan& plan,
@@ -189,17 +201,13 @@ Columns stack_columns(const LocalGeometry& geometry, const Gathered& gathered, c
     std::vector<Columns> parts(pieces);
     for_each_piece(pieces, options.threads, [&](std::size_t piece) {
         Stack stack(geometry, gathered, bins, options);
-        for (std::size_t t = piece * kPiece; t < std::min(count, (piece + 1) * kPiece); ++t) {
-            stack.find(middle_of(plan, plan.triangles[stand_in[t]]), levels[stand_in[t]], parts[piece].boundaries);
-            parts[piece].first.push_back(static_cast<std::uint32_t>(parts[piece].boundaries.size()));
-        }
+        for (std::size_t t = piece * kPiece; t < std::min(count, (piece + 1) * kPiece); ++t)
+            stack.find(middle_of(plan, plan.triangles[stand_in[t]]), levels[stand_in[t]], parts[piece]);
     });
-    Columns all;
-    all.first.push_back(0);
+    Columns all{{}, {0}, {}, {0}};
     for (const Columns& part : parts) {
-        const auto before = static_cast<std::uint32_t>(all.boundaries.size());
-        for (const std::uint32_t end : part.first) all.first.push_back(before + end);
-        all.boundaries.insert(all.boundaries.end(), part.boundaries.begin(), part.boundaries.end());
+        append(part.boundaries, part.first, all.boundaries, all.first);
+        append(part.brushes, part.first_brush, all.brushes, all.first_brush);
     }
     return all;
 }

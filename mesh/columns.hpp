@@ -17,7 +17,10 @@ struct Boundary {
 struct Columns {
     std::vector<Boundary> boundaries;
     std::vector<std::uint32_t> first;
+    // Of the geometry, those that lie over each triangle, ascending, in ranges likewise.
+    std::vector<std::uint32_t> brushes, first_brush;
     std::span<const Boundary> of(std::size_t t) const { return {boundaries.data() + first[t], first[t + 1] - first[t]}; }
+    std::span<const std::uint32_t> brushes_of(std::size_t t) const { return {brushes.data() + first_brush[t], first_brush[t + 1] - first_brush[t]}; }
 };
 
 struct ColumnOptions {

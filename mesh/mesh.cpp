@@ -83,11 +83,12 @@ Result<TriangleMesh> mesh_pattern(const ResolvedPattern& pattern, const CellGrid
     add_step_lines(surface, gathered, *tolerance, lines);
     Plan plan = divide_plan(lines, pattern.size, snap);
     const double base = options.base > 0.0 ? options.base : 0.5 * pattern.depth;
-    const Columns columns =
-        stack_columns(geometry, gathered, bins, plan, find_levels(surface, plan), {surface.lowest() - base, 2.0 * snap, same_level, options.threads});
+    const std::vector<double> levels = find_levels(surface, plan);
+    const Columns columns = stack_columns(geometry, gathered, bins, plan, levels, {surface.lowest() - base, 2.0 * snap, same_level, options.threads});
+    const Walls walls(geometry, gathered, columns, levels, same_level);
     std::optional<double> outside;
     if (pattern.wrap == Wrap::clamp && !options.closed) outside = pattern.outer_level;
-    TriangleMesh mesh = close_surface(std::move(plan), columns, {geometry.fine, options.closed, outside});
+    TriangleMesh mesh = close_surface(std::move(plan), columns, walls, {geometry.fine, options.closed, outside});
     if (mesh.triangles.size() > kMaxTriangles)
         return Error{ErrorCode::limit_exceeded, std::to_string(mesh.triangles.size()) + " triangles are more than " + std::to_string(kMaxTriangles) +
                                                     "; a larger tolerance than " + short_text(*tolerance) + " m takes fewer"};

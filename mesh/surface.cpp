@@ -52,6 +52,7 @@ class Heights {
 struct Builder {
     Plan plan;
     const Columns& columns;
+    const Walls& walls;
     SurfaceOptions options;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> splits;  // from the smaller corner to the larger
     Heights heights;
@@ -173,25 +174,28 @@ struct Builder {
             for (const Boundary& boundary : columns.of(t)) take(boundary, true);
             for (const Boundary& boundary : column_beyond(beyond)) take(boundary, false);
             std::stable_sort(levels.begin(), levels.end(), [](const Level& x, const Level& y) { return x.at_a + x.at_b < y.at_a + y.at_b; });
-            put_walls_between(way[k], way[k + 1], levels, plan.triangles[t].step[i]);
+            put_walls_between(way[k], way[k + 1], levels, {static_cast<std::int32_t>(t), beyond, plan.triangles[t].step[i]});
         }
     }
 
-    void put_walls_between(std::uint32_t a, std::uint32_t b, const std::vector<Level>& levels, std::uint32_t step) {
+    // Triangles on both sides, and the step whose path line parts them.
+    struct Sides {
+        std::int32_t here, there;
+        std::uint32_t step;
+    };
+
+    void put_walls_between(std::uint32_t a, std::uint32_t b, const std::vector<Level>& levels, const Sides& sides) {
         bool here = false, there = false;
+        const Vec2 middle = lerp(plan.corners[a], plan.corners[b], 0.5);
         for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
-            bool& side = levels[k].here ? here : there;
+            const Level &low = levels[k], &high = levels[k + 1];
+            bool& side = low.here ? here : there;
             side = !side;
-            if (here != there) put_wall(a, b, levels[k], levels[k + 1], here, wall_origin(levels[k], levels[k + 1], step));
+            if (here == there) continue;
+            const Vec3 at{middle.x, middle.y, 0.25 * (low.at_a + low.at_b + high.at_a + high.at_b)};
+            const std::uint32_t element = walls.element_of(here ? sides.here : sides.there, here ? sides.there : sides.here, sides.step, at);
+            put_wall(a, b, low, high, here, {element, kWall});
         }
-    }
-
-    // The element that the wall is of: a groove's floor stands below its wall, a ridge's top above it.
-    static Origin wall_origin(const Level& low, const Level& high, std::uint32_t step) {
-        const std::uint32_t below = low.boundary->origin.element, above = high.boundary->origin.element;
-        if (below != kGround) return {below, kWall};
-        if (above != kGround) return {above, kWall};
-        return {step == kNoStep ? kGround : step, kWall};
     }
 
     // From the height of `low` to that of `high`; further corners on its upright sides are those of other walls. It looks to the
@@ -267,8 +271,8 @@ void drop_unused(TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh close_surface(Plan plan, const Columns& columns, const SurfaceOptions& options) {
-    Builder builder{std::move(plan), columns, options, {}, {}, {}, {}};
+TriangleMesh close_surface(Plan plan, const Columns& columns, const Walls& walls, const SurfaceOptions& options) {
+    Builder builder{std::move(plan), columns, walls, options, {}, {}, {}, {}};
     if (options.outside && !columns.boundaries.empty())
         builder.outside = {columns.boundaries.front(), {{{0, 0}, *options.outside}, {kGround, kGround}}};
     builder.for_each_edge([&](std::size_t t, int i, std::int32_t beyond) { builder.split_edge(t, i, beyond); });

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "columns.hpp"
+#include "walls.hpp"
 
 namespace burin::mesh {
 
@@ -15,6 +15,6 @@ struct SurfaceOptions {
 };
 
 // Takes the plan, whose edges are divided where surfaces of neighbouring columns cross above them. Cost: linear in the columns.
-TriangleMesh close_surface(Plan plan, const Columns& columns, const SurfaceOptions& options);
+TriangleMesh close_surface(Plan plan, const Columns& columns, const Walls& walls, const SurfaceOptions& options);
 
 }  // namespace burin::mesh

@@ -43,7 +43,12 @@ EmbreeScene traced(const TriangleMesh& made) {
 struct Outcome {
     int rays = 0, off = 0;
     double mean = 0.0;  // metres along the ray, of those that are not off
+    int other = 0;      // of those, on what is of another style: another material, perhaps
 };
+
+std::uint32_t style_of(const ResolvedPattern& pattern, std::uint32_t element) {
+    return element < pattern.elements.size() ? pattern.elements[element].style : kGround;
+}
 
 // Rays from the object surface down, at 10 to 90 degrees, that meet the map itself. Off: by more than what a bent path moves a wall that the
 // ray passes.
@@ -63,7 +68,7 @@ Outcome compare_rays(const ResolvedPattern& pattern, const TriangleMesh& made, i
         const double off = std::abs(hit.distance - right.t) * run;
         ++outcome.rays;
         if (off > 16.0 * made.tolerance + 1e-5 * std::max(pattern.size.x, pattern.size.y)) ++outcome.off;
-        else outcome.mean += off;
+        else outcome.mean += off, outcome.other += style_of(pattern, made.origins[hit.triangle].element) != style_of(pattern, right.element);
     }
     outcome.mean /= std::max(1, outcome.rays - outcome.off);
     return outcome;
@@ -82,6 +87,7 @@ TEST_P(EachScene, IsASolidWhereTheTruthIs) {
     // A ray beside an edge may meet the other side of it.
     EXPECT_LE(outcome.off, 4);
     EXPECT_LE(outcome.mean, made.tolerance);
+    EXPECT_LE(outcome.other, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EachScene,
@@ -91,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EachScene,
 
 // Steps, curves, caps, joins, scales, near-parallel and tangent lines: whatever a pattern can hold.
 TEST(RandomPatterns, AreSolidsWhereTheTruthIs) {
-    int rays = 0, off = 0;
+    int rays = 0, off = 0, other = 0;
     for (std::uint64_t seed = 1; seed <= 24; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         RandomPatternOptions options;
@@ -104,11 +110,12 @@ TEST(RandomPatterns, AreSolidsWhereTheTruthIs) {
         const TriangleMesh made = mesh_of(*pattern, how);
         EXPECT_EQ(mesh::count_open_edges(made), 0u);
         const Outcome outcome = compare_rays(*pattern, made, 500, seed);
-        rays += outcome.rays, off += outcome.off;
+        rays += outcome.rays, off += outcome.off, other += outcome.other;
         EXPECT_LE(outcome.off, outcome.rays / 100);
     }
     EXPECT_GE(rays, 6000);
     EXPECT_LE(off, rays / 1000) << rays << " rays";
+    EXPECT_LE(other, rays / 1000) << rays << " rays";
 }
 
 double volume_of(const TriangleMesh& made) {
