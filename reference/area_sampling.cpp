@@ -1,5 +1,7 @@
 #include "area_sampling.hpp"
 
+#include <algorithm>
+
 #include <burin/evaluate.hpp>
 
 namespace burin::reference {
@@ -9,25 +11,26 @@ constexpr double kEdgeOn = 1e-9;
 
 class Sampler {
   public:
-    Sampler(Carver& carver, const AreaRequest& request, AreaSampling& work)
-        : carver_(carver), geometry_(carver.geometry()), request_(request), slopes_(request.slopes), eye_(request.direction),
-          lamp_{request.slopes.light, request.direction.top, false}, work_(work) {
+    Sampler(Blocks& blocks, const AreaRequest& request, AreaSampling& work)
+        : blocks_(blocks), request_(request), slopes_(request.slopes), eye_(request.direction), lamp_{request.slopes.light, request.direction.top, false},
+          across_(normal_of(unit(request.slopes.view))), work_(work) {
         work_.plane.clear();
-        work_.plane.thin = geometry_.points.thin;
+        work_.plane.thin = 0.25 * request.fine;
     }
 
     void show_faces() {
         work_.front.clear();
         work_.hiding.clear();
         const std::uint32_t from = work_.plane.mark();
-        Box box;
+        Window window{across_};
         for (const Vec2 p : request_.footprint->corners) {
             work_.plane.add(p);
-            include(box, p);
+            window.include(p);
         }
         const Polygon whole = work_.plane.close(from);
-        for_each_shown(box, eye_, [&](Shown shown) {
-            const double facing = eye_.facing(geometry_.faces[shown.face].normal) * (request_.within ? -1.0 : 1.0);
+        const double sign = request_.within ? -1.0 : 1.0;
+        for_each_shown(window, eye_, request_.lowest, [](double) { return true; }, [&](Shown shown) {
+            const double facing = eye_.facing(shown.normal) * sign;
             shown.polygon = clip_to(work_.plane, shown.polygon, whole);
             if (!is_solid(work_.plane, shown.polygon) || !lies_before(shown)) return;
             shown.box = box_of(work_.plane, shown.polygon);
@@ -40,68 +43,67 @@ class Sampler {
         for (const Shown& front : work_.front) {
             work_.kept.assign(1, front.polygon);
             for (const Shown& other : work_.hiding)
-                if (other.face != front.face && meet(front.box, other.box)) remove(front.face, other, eye_);
-            for (const Polygon p : work_.kept) work_.seen.push_back({front.face, p, {}});
+                if (meet(front.box, other.box)) remove(front, other, eye_);
+            for (const Polygon p : work_.kept) {
+                work_.seen.push_back(front);
+                work_.seen.back().polygon = p;
+            }
         }
     }
 
     void show_shading() {
         work_.shading.clear();
         if (!slopes_.lit) return;
-        Box box;
+        Window window{across_};
+        double lowest = 1e300;
         for (const Shown& seen : work_.seen) {
-            const Face& face = geometry_.faces[seen.face];
-            if (lamp_.facing(face.normal) <= kEdgeOn) continue;
-            for (const Vec2* q = work_.plane.begin(seen.polygon); q != work_.plane.end(seen.polygon); ++q)
-                include(box, lamp_.show(eye_.meet(face.normal, corner_of(face), *q)));
+            if (lamp_.facing(seen.normal) <= kEdgeOn) continue;
+            for (const Vec2* q = work_.plane.begin(seen.polygon); q != work_.plane.end(seen.polygon); ++q) {
+                const Vec3 p = eye_.meet(seen.normal, seen.corner, *q);
+                window.include(lamp_.show(p));
+                lowest = std::min(lowest, p.z);
+            }
         }
-        for_each_shown(box, lamp_, [&](const Shown& shown) {
-            if (lamp_.facing(geometry_.faces[shown.face].normal) < 0.0) work_.shading.push_back(shown);
-        });
+        if (lowest >= request_.highest) return;
+        for_each_shown(window, lamp_, lowest, [](double facing) { return facing < 0.0; }, [&](const Shown& shown) { work_.shading.push_back(shown); });
     }
 
     // Share of what is seen that the light reaches.
     double lit_part(const Shown& seen) {
-        const Face& face = geometry_.faces[seen.face];
-        if (!slopes_.lit || lamp_.facing(face.normal) <= kEdgeOn) return 0.0;
+        if (!slopes_.lit || lamp_.facing(seen.normal) <= kEdgeOn) return 0.0;
         const std::uint32_t from = work_.plane.mark();
-        for (std::uint32_t i = 0; i < seen.polygon.count; ++i)
-            work_.plane.add(lamp_.show(eye_.meet(face.normal, corner_of(face), work_.plane(seen.polygon, i))));
-        Shown lit{seen.face, work_.plane.close(from), {}};
+        for (std::uint32_t i = 0; i < seen.polygon.count; ++i) work_.plane.add(lamp_.show(eye_.meet(seen.normal, seen.corner, work_.plane(seen.polygon, i))));
+        Shown lit = seen;
+        lit.polygon = work_.plane.close(from);
         const double whole = std::abs(orient(lit));
         if (whole <= 0.0) return 0.0;
         lit.box = box_of(work_.plane, lit.polygon);
         work_.kept.assign(1, lit.polygon);
         for (const Shown& other : work_.shading)
-            if (other.face != seen.face && meet(lit.box, other.box)) remove(seen.face, other, lamp_);
+            if (meet(lit.box, other.box)) remove(seen, other, lamp_);
         double rest = 0.0;
         for (const Polygon p : work_.kept) rest += burin::reference::area_of(work_.plane, p);
         return std::min(rest / whole, 1.0);
     }
 
     Vec3 place_of(const Shown& seen) const {
-        const Face& face = geometry_.faces[seen.face];
-        return eye_.meet(face.normal, corner_of(face), burin::reference::middle_of(work_.plane, seen.polygon));
+        return eye_.meet(seen.normal, seen.corner, burin::reference::middle_of(work_.plane, seen.polygon));
     }
 
     void keep_corners(const Shown& seen, Share& share) {
-        const Face& face = geometry_.faces[seen.face];
         share.first_corner = static_cast<std::uint32_t>(work_.corners.size());
         share.corners = seen.polygon.count;
         for (std::uint32_t i = 0; i < seen.polygon.count; ++i)
-            work_.corners.push_back(eye_.meet(face.normal, corner_of(face), work_.plane(seen.polygon, i)));
+            work_.corners.push_back(eye_.meet(seen.normal, seen.corner, work_.plane(seen.polygon, i)));
     }
 
   private:
-    Vec3 corner_of(const Face& face) const { return geometry_.points(face.polygon, 0); }
-
     // Whether the rays of a beam come to it after they left.
     bool lies_before(const Shown& shown) const {
         if (!request_.leaves) return true;
-        const Face& face = geometry_.faces[shown.face];
         const Vec2 q = burin::reference::middle_of(work_.plane, shown.polygon);
-        const double rise = eye_.meet(face.normal, corner_of(face), q).z - eye_.meet(request_.normal, request_.corner, q).z;
-        return (eye_.rising ? rise : -rise) > 64.0 * geometry_.fine;
+        const double rise = eye_.meet(shown.normal, shown.corner, q).z - eye_.meet(request_.normal, request_.corner, q).z;
+        return (eye_.rising ? rise : -rise) > 64.0 * request_.fine;
     }
 
     // Turns the polygon so that it goes from x towards y; its area.
@@ -114,80 +116,94 @@ class Sampler {
         return -area;
     }
 
-    // Calls use(shown) for the pieces of faces that are not seen edge-on, where their boxes meet `box`.
-    template <typename Use>
-    void for_each_shown(const Box& box, const Direction& direction, const Use& use) {
-        for (std::uint32_t i = 0; i < geometry_.faces.size(); ++i) {
-            const Face& face = geometry_.faces[i];
-            if (std::abs(direction.facing(face.normal)) < kEdgeOn) continue;
-            Box whole;
-            for (const Vec3* p = geometry_.points.begin(face.polygon); p != geometry_.points.end(face.polygon); ++p) include(whole, direction.show(*p));
-            if (!meet(whole, box)) continue;
-            const Carving::Pieces pieces = carver_.pieces_of(i);
+    // Calls use(shown) for the pieces of faces that are not seen edge-on and whose facing is wanted, where their boxes meet the window; of those that lie
+    // wholly below `lowest` perhaps not.
+    template <typename Wanted, typename Use>
+    void for_each_shown(const Window& window, const Direction& direction, double lowest, const Wanted& wanted, const Use& use) {
+        std::uint32_t met = 0;
+        blocks_.for_each_face(window, direction, lowest, request_.highest, [&](Block& block, std::uint32_t i) {
+            const Face face = block.geometry.faces[i];
+            const double facing = direction.facing(face.normal);
+            if (std::abs(facing) < kEdgeOn || !wanted(facing)) return;
+            Shown shown;
+            shown.face = met++;
+            shown.element = face.instance == kGround ? kGround : block.gathered.instances[face.instance].element;
+            shown.facet = face.facet;
+            shown.normal = face.normal;
+            shown.corner = block.geometry.points(face.polygon, 0);
+            const Carving::Pieces pieces = block.carver->pieces_of(i);
             for (std::uint32_t k = 0; k < pieces.count; ++k) {
-                const Shown shown = show(i, carver_.piece(pieces.first + k), direction);
-                if (shown.polygon && meet(shown.box, box)) use(shown);
+                const Part& part = block.carver->piece(pieces.first + k);
+                if (!window.meets(direction.show(part.box, block.extents[i].lowest, block.extents[i].highest))) continue;
+                if (show(block.geometry.points, part.polygon, direction, shown) && window.meets(shown.box)) use(shown);
             }
-        }
+        });
     }
 
-    Shown show(std::uint32_t face, Polygon polygon, const Direction& direction) {
-        Shown shown{face, {}, {}};
+    // False: nothing of it is left.
+    bool show(const Polygons<Vec3>& points, Polygon polygon, const Direction& direction, Shown& shown) {
         const std::uint32_t from = work_.plane.mark();
-        for (const Vec3* p = geometry_.points.begin(polygon); p != geometry_.points.end(polygon); ++p)
-            work_.plane.add(direction.show(*p));
+        for (const Vec3* p = points.begin(polygon); p != points.end(polygon); ++p) work_.plane.add(direction.show(*p));
         shown.polygon = work_.plane.close(from);
         orient(shown);
-        if (!is_solid(work_.plane, shown.polygon)) shown.polygon = {};
+        if (!is_solid(work_.plane, shown.polygon)) return false;
         shown.box = box_of(work_.plane, shown.polygon);
-        return shown;
+        return true;
     }
 
     // Takes from work_.kept, parts of a face, what `other` stands before.
-    void remove(std::uint32_t index, const Shown& other, const Direction& direction) {
+    void remove(const Shown& own, const Shown& other, const Direction& direction) {
         work_.next.clear();
         for (const Polygon p : work_.kept) {
             const std::size_t before = work_.next.size();
+            if (!ever_nearer(other, own, p, direction) || parts(work_.plane, other.polygon, p) || parts(work_.plane, p, other.polygon)) {
+                work_.next.push_back(p);
+                continue;
+            }
             const Polygon rest = cut_out(work_.plane, p, other.polygon, work_.next);
-            if (rest && nearer(other.face, index, burin::reference::middle_of(work_.plane, rest), direction)) continue;
+            if (rest && nearer(other, own, burin::reference::middle_of(work_.plane, rest), direction)) continue;
             work_.next.resize(before);
             work_.next.push_back(p);
         }
         work_.kept.swap(work_.next);
     }
 
-    bool nearer(std::uint32_t a, std::uint32_t b, Vec2 q, const Direction& direction) const {
-        const Face &first = geometry_.faces[a], &second = geometry_.faces[b];
-        const double rise = direction.meet(first.normal, corner_of(first), q).z - direction.meet(second.normal, corner_of(second), q).z;
+    // False: a lies behind b all over p. Both are flat.
+    bool ever_nearer(const Shown& a, const Shown& b, Polygon p, const Direction& direction) const {
+        return std::any_of(work_.plane.begin(p), work_.plane.end(p), [&](Vec2 q) { return nearer(a, b, q, direction); });
+    }
+
+    static bool nearer(const Shown& a, const Shown& b, Vec2 q, const Direction& direction) {
+        const double rise = direction.meet(a.normal, a.corner, q).z - direction.meet(b.normal, b.corner, q).z;
         return direction.rising ? rise < 0.0 : rise > 0.0;
     }
 
-    Carver& carver_;
-    const LocalGeometry& geometry_;
+    Blocks& blocks_;
     const AreaRequest& request_;
     const Slopes& slopes_;
     Direction eye_, lamp_;
+    Vec2 across_;  // what is seen from low down is long
     AreaSampling& work_;
 };
 
-Share share_of(const Face& face, const Gathered& gathered) {
+Share share_of(const Shown& seen) {
     Share share;
-    share.element = face.instance == kGround ? kGround : gathered.instances[face.instance].element;
-    share.facet = face.facet;
-    share.normal = face.normal;
+    share.element = seen.element;
+    share.facet = seen.facet;
+    share.normal = seen.normal;
     return share;
 }
 
 }  // namespace
 
-void sample_areas(Carver& carver, const AreaRequest& request, AreaSampling& work, std::vector<Share>& out) {
-    Sampler sampler(carver, request, work);
+void sample_areas(Blocks& blocks, const AreaRequest& request, AreaSampling& work, std::vector<Share>& out) {
+    Sampler sampler(blocks, request, work);
     sampler.show_faces();
     sampler.hide();
     sampler.show_shading();
     for (std::size_t i = 0; i < work.seen.size();) {
         const std::uint32_t index = work.seen[i].face;
-        Share share = share_of(carver.geometry().faces[index], carver.gathered());
+        Share share = share_of(work.seen[i]);
         Vec3 places;
         const std::size_t first = i;
         for (; i < work.seen.size() && work.seen[i].face == index && (i == first || !request.corners); ++i) {

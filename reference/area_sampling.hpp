@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "carve.hpp"
+#include "blocks.hpp"
 #include "footprint.hpp"
 #include "share.hpp"
 
@@ -15,7 +15,9 @@ namespace burin::reference {
 
 // A piece as it lies in the plane of one direction.
 struct Shown {
-    std::uint32_t face = 0;
+    std::uint32_t face = 0;  // in the order in which they were met
+    std::uint32_t element = 0, facet = 0;
+    Vec3 normal, corner;  // of the face's plane
     Polygon polygon;  // in AreaSampling::plane, from x towards y
     Box box;
 };
@@ -28,29 +30,13 @@ struct AreaSampling {
     std::vector<Vec3> corners;  // of shares
 };
 
-// Rays that fall along a slope, or rise against it, and are known by where they pass the height `top`.
-struct Direction {
-    Vec2 slope;
-    double top = 0.0;
-    bool rising = false;
-
-    Vec2 show(Vec3 p) const { return plan(p) - slope * (top - p.z); }
-    double lean(Vec3 normal) const { return normal.z - dot(plan(normal), slope); }
-    // How much a face turns towards where the rays come from; below 0: away.
-    double facing(Vec3 normal) const { return rising ? -lean(normal) : lean(normal); }
-    // Where the ray through q meets the plane through `corner`.
-    Vec3 meet(Vec3 normal, Vec3 corner, Vec2 q) const {
-        const double z = (dot(normal, corner) - dot(plan(normal), q + slope * top)) / lean(normal);
-        const Vec2 p = q + slope * (top - z);
-        return {p.x, p.y, z};
-    }
-};
-
 struct AreaRequest {
     const Footprint* footprint = nullptr;  // in the plane of the direction; convex, from x towards y
     Direction direction;
     Slopes slopes;       // the light
     double whole = 1.0;  // area that shares are parts of
+    double lowest = 0.0, highest = 0.0;  // of all that may be met
+    double fine = 0.0;  // heights and places nearer than this are equal, metres
     bool corners = false;
     bool within = false;  // rays run in the solid and see facets from behind, up to the first that they leave it by
     // The facet that rays leave, of a beam: what lies behind it is not met.
@@ -58,8 +44,8 @@ struct AreaRequest {
     Vec3 normal, corner;
 };
 
-// Adds to `out` one share for each face that is seen, or with `corners` for each part of one. Requires: a carver of all that was
-// gathered for this request.
-void sample_areas(Carver& carver, const AreaRequest& request, AreaSampling& work, std::vector<Share>& out);
+// Adds to `out` one share for each face that is seen, or with `corners` for each part of one. Asks the blocks that were
+// chosen.
+void sample_areas(Blocks& blocks, const AreaRequest& request, AreaSampling& work, std::vector<Share>& out);
 
 }  // namespace burin::reference

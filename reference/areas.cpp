@@ -10,10 +10,24 @@ namespace {
 
 constexpr int kMostHalvings = 16;
 
+double width_of(const AreasOptions& options, double area) { return options.width > 0.0 ? options.width : std::sqrt(area); }
+
+double reach_of(const Region& region) { return std::max(region.box.high.x - region.box.low.x, region.box.high.y - region.box.low.y); }
+
+// Heights and places nearer than this are equal.
+double fine_of(const GroovedSurface& surface, const Region& region) { return 1e-9 * std::max(reach_of(region), surface.pattern().depth); }
+
 // What hides and shades comes from afar where view or light are low: it may be coarser there.
 double tolerance_in(const Region& region, const AreasOptions& options, double area) {
-    const double width = options.width > 0.0 ? options.width : std::sqrt(area);
-    return options.tolerance * std::max(width, 0.02 * std::max(region.box.high.x - region.box.low.x, region.box.high.y - region.box.low.y));
+    return options.tolerance * std::max(width_of(options, area), 0.02 * reach_of(region));
+}
+
+// Asks the blocks for what was gathered. Requires: request.fine.
+void sample_gathered(const GroovedSurface& surface, const AreasOptions& options, double area, AreaRequest& request, AreasWork& work, std::vector<Share>& out) {
+    const Region& region = work.gathered.region;
+    request.lowest = work.gathered.lowest - request.fine, request.highest = work.gathered.highest + request.fine;
+    work.blocks.choose(surface, width_of(options, area), reach_of(region), tolerance_in(region, options, area));
+    sample_areas(work.blocks, request, work.area, out);
 }
 
 class Finder {
@@ -38,8 +52,6 @@ class Finder {
             return;
         }
         ++work_.by_area;
-        sweep_grooves(surface_, work_.gathered, {tolerance}, work_.geometry);
-        Carver carver(work_.geometry, surface_, work_.gathered, work_.carving);
         AreaRequest request;
         request.footprint = &footprint;
         request.direction = {slopes_.view, surface_.top(), within_};
@@ -47,7 +59,8 @@ class Finder {
         request.slopes = slopes_;
         request.whole = whole_;
         request.corners = options_.corners;
-        sample_areas(carver, request, work_.area, out_);
+        request.fine = fine_of(surface_, work_.gathered.region);
+        sample_gathered(surface_, options_, area_of(footprint), request, work_, out_);
     }
 
   private:
@@ -139,14 +152,14 @@ double find_hits(const GroovedSurface& surface, const Beam& beam, const Slopes& 
     if (!(request.whole > 0.0)) return 1.0;
     gather_grooves(surface, plan_of, request.slopes, start, work.gathered);
     if (start.rising ? start.low >= work.gathered.highest : start.high <= work.gathered.lowest) return 1.0;
-    sweep_grooves(surface, work.gathered, {tolerance_in(work.gathered.region, options, request.whole)}, work.geometry);
-    if (!drop_short_edges(shown, work.geometry.points.thin)) return 1.0;
+    const double met_area = request.whole;
+    request.fine = fine_of(surface, work.gathered.region);
+    if (!drop_short_edges(shown, 0.25 * request.fine)) return 1.0;
     request.whole = area_of(shown);
-    Carver carver(work.geometry, surface, work.gathered, work.carving);
     request.footprint = &shown;
     request.normal = beam.normal;
     request.corner = beam.corners[0];
-    sample_areas(carver, request, work.area, out);
+    sample_gathered(surface, options, met_area, request, work, out);
     double met = 0.0;
     for (const Share& share : out) met += share.seen;
     return std::max(0.0, 1.0 - met);

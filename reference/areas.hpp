@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "area_sampling.hpp"
-#include "carve.hpp"
 #include "footprint.hpp"
 #include "gather.hpp"
 #include "line_sampling.hpp"
@@ -29,8 +28,7 @@ struct AreasOptions {
 // Memory of one thread.
 struct AreasWork {
     Gathered gathered;
-    LocalGeometry geometry;
-    Carving carving;
+    Blocks blocks;
     AreaSampling area;
     LineSampling line;
     long by_line = 0, by_area = 0;  // footprints, or parts of them, that each has done

@@ -44,7 +44,7 @@ class Carver {
     const Gathered& gathered() const { return gathered_; }
     // What is left of a face, as a range of Carving::pieces. Cost: the brushes whose boxes meet its own.
     Carving::Pieces pieces_of(std::uint32_t face);
-    Polygon piece(std::uint32_t index) const { return work_.pieces[index].polygon; }
+    const Part& piece(std::uint32_t index) const { return work_.pieces[index]; }
 
   private:
     void sort_brushes();

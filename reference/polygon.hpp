@@ -157,6 +157,16 @@ inline HalfPlane edge_of(const Polygons<Vec2>& pool, Polygon p, std::uint32_t i)
     return {n, dot(n, a)};
 }
 
+// Whether an edge of one, from x towards y, has all of the other on its outer side.
+inline bool parts(const Polygons<Vec2>& pool, Polygon one, Polygon other) {
+    for (std::uint32_t i = 0; i < one.count; ++i) {
+        const Vec2 a = pool(one, i), along = pool(one, i + 1 < one.count ? i + 1 : 0) - a;
+        if (dot(along, along) <= pool.thin * pool.thin) continue;
+        if (std::all_of(pool.begin(other), pool.end(other), [&](Vec2 q) { return cross(along, q - a) <= 0.0; })) return true;
+    }
+    return false;
+}
+
 // What of p lies inside of another convex polygon.
 inline Polygon clip_to(Polygons<Vec2>& pool, Polygon p, Polygon other) {
     for (std::uint32_t i = 0; p && i < other.count; ++i) p = pool.clip(p, edge_of(pool, other, i));

@@ -1,6 +1,7 @@
 #include "surface.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "evaluate_prepare.hpp"
@@ -121,10 +122,24 @@ SlabbedProfile slab_profile(const ResolvedProfile& profile) {
     return out;
 }
 
+namespace {
+
+double spacing_of(const ResolvedPattern& pattern, const CellGrid& grid) {
+    std::size_t used = 0;
+    for (std::size_t cell = 0; cell + 1 < grid.first_ref.size(); ++cell) used += grid.first_ref[cell + 1] > grid.first_ref[cell];
+    const double cell_area = pattern.size.x / grid.cols * (pattern.size.y / grid.rows);
+    return std::sqrt(cell_area * static_cast<double>(std::max<std::size_t>(used, 1)) / static_cast<double>(std::max<std::size_t>(grid.refs.size(), 1)));
+}
+
+}  // namespace
+
 GroovedSurface::GroovedSurface(const ResolvedPattern& pattern, const CellGrid& grid)
     : pattern_(pattern), grid_(grid), truth_(pattern) {
     for (const ResolvedProfile& profile : pattern.profiles) profiles_.push_back(slab_profile(profile));
+    static std::atomic<std::uint64_t> made{0};
     lowest_ = truth_.prepared().lowest;
+    id_ = ++made;
+    spacing_ = spacing_of(pattern_, grid_);
 }
 GroovedSurface::~GroovedSurface() = default;
 GroovedSurface::GroovedSurface(GroovedSurface&&) noexcept = default;

@@ -50,6 +50,10 @@ class GroovedSurface {
     const CellGrid& grid() const { return grid_; }
     const Truth& truth() const { return truth_; }
     const std::vector<SlabbedProfile>& profiles() const { return profiles_; }
+    // Tells surfaces apart that have been made since the program began.
+    std::uint64_t id() const { return id_; }
+    // Side of a square that one element acts in, in the mean over the cells where any does, metres.
+    double spacing() const { return spacing_; }
     double lowest() const { return lowest_; }
     double top() const { return pattern_.base_offset; }  // of the object surface, where footprints lie
     // Bytes of all that a picture needs of the pattern: elements, profiles, grid.
@@ -61,6 +65,8 @@ class GroovedSurface {
     Truth truth_;
     std::vector<SlabbedProfile> profiles_;
     double lowest_ = 0.0;
+    double spacing_ = 0.0;
+    std::uint64_t id_ = 0;
 };
 
 SlabbedProfile slab_profile(const ResolvedProfile& profile);
