@@ -19,8 +19,8 @@ inline Backend backend() {
 // Skips where there is no context at all. A driver that has one and refuses a shader fails the test.
 #define SKIP_WITHOUT_CONTEXT(result)                                                         \
     if (!(result)) {                                                                         \
-        const auto context = ::burin::describe_backend(::burin::testing::backend());         \
-        if (!context) GTEST_SKIP() << "SKIPPED: " << context.error().message;                \
+        const auto described = ::burin::describe_backend(::burin::testing::backend());       \
+        if (!described) GTEST_SKIP() << "SKIPPED: " << described.error().message;            \
         FAIL() << (result).error().message;                                                  \
     }                                                                                        \
     static_assert(true)
