@@ -25,7 +25,8 @@ struct AreasOptions {
     bool corners = false;      // shares with the polygons that are seen, one for each; area sampling everywhere
 };
 
-// Memory of one thread.
+// Memory of one thread. Blocks of surfaces that were asked stay, and with them a pointer to each surface: one that is asked again must lie where it
+// lay before.
 struct AreasWork {
     Gathered gathered;
     Blocks blocks;
@@ -35,7 +36,8 @@ struct AreasWork {
 };
 
 // Fills `out`: shares that sum to 1, in the order of elements and facets within a part of the footprint; the same facet may
-// stand there more than once. Requires: a footprint of positive area. Cost: 1 us for a groove, 10 us where two cross.
+// stand there more than once. Requires: a footprint of positive area. Cost: 1 us for a groove, some 3 us where two cross and neighbours have
+// been asked before; 20 to 110 us where none has.
 void find_areas(const GroovedSurface& surface, const Footprint& footprint, const Slopes& slopes, const AreasOptions& options,
                 AreasWork& work, std::vector<Share>& out);
 

@@ -5,8 +5,8 @@
 namespace burin::reference {
 namespace {
 
-// Some 50 MB.
-constexpr std::size_t kMostWeight = 100000, kWeightOfBlock = 8;
+// 12 to 32 MB.
+constexpr std::size_t kMostWeight = 20000, kWeightOfBlock = 8;
 
 void put_face(LocalGeometry& geometry, Face face, Polygon polygon) {
     if (!polygon) return;
