@@ -38,25 +38,32 @@ struct BurinEvents {
 };
 
 // A stretch of the ray as the profile sees it: straight, round the vertex of an end, or else a parabola through three of its places,
-// which decides what is crossed. Where a crossing lies is then asked of the section itself.
+// over scales that are one too, since a point that tapers to nothing is any number of widths away; it decides what is crossed. Where a crossing lies is then asked of the section itself.
 struct BurinTrack {
     vec2 range;  // drops at its ends
     vec2 a;      // section points there
     vec2 b;
-    vec2 bow;    // from the middle of the chord a-b to the middle of the stretch
+    vec2 from;   // scales of width and height at its ends
+    vec2 to;
+    vec2 bow;    // from the middle of the chord to the middle of the stretch, times the scales; and of these
+    vec2 scale_bow;
     bool straight;
     float side;  // of a round one; 0 for others
     vec2 start;  // of a round one: from the vertex to its ends over the plane, in widths
     vec2 end;
 };
 
-BurinTrack burin_track(BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, vec2 a, vec2 middle, vec2 b) {
+BurinTrack burin_track(BurinStyle style, BurinPiece piece, BurinRay ray, vec2 range, BurinSection a, BurinSection middle, BurinSection b) {
     BurinTrack on;
     on.range = range;
-    on.a = a;
-    on.b = b;
+    on.a = a.q;
+    on.b = b.q;
     on.straight = burin_is_straight(piece);
-    on.bow = on.straight ? vec2(0.0f, 0.0f) : middle - (a + b) * 0.5f;
+    on.from = vec2(a.width, a.height);
+    on.to = vec2(b.width, b.height);
+    vec2 scales = vec2(middle.width, middle.height);
+    on.bow = middle.q * scales - (a.q * on.from + b.q * on.to) * 0.5f;
+    on.scale_bow = scales - (on.from + on.to) * 0.5f;
     on.side = 0.0f;
     on.start = vec2(0.0f, 0.0f);
     on.end = on.start;
@@ -73,7 +80,9 @@ BurinTrack burin_track(BurinStyle style, BurinPiece piece, BurinRay ray, vec2 ra
 vec2 burin_along(BurinTrack on, float share) {
     vec2 q = mix(on.a, on.b, share);
 #if BURIN_BENDS != 0
-    q = q + on.bow * (4.0f * share * (1.0f - share));
+    float rise = on.straight ? 0.0f : 4.0f * share * (1.0f - share);
+    if (!on.straight)
+        q = (mix(on.a * on.from, on.b * on.to, share) + on.bow * rise) / max(mix(on.from, on.to, share) + on.scale_bow * rise, vec2(1.0e-3f, 1.0e-3f));
     if (on.side != 0.0f) q = vec2(on.side * length(mix(on.start, on.end, share)), mix(on.a.y, on.b.y, share));
 #endif
     return q;
@@ -85,7 +94,10 @@ BurinTrack burin_track_part(BurinTrack on, float from, float to) {
     part.range = vec2(mix(on.range.x, on.range.y, from), mix(on.range.x, on.range.y, to));
     part.a = burin_along(on, from);
     part.b = burin_along(on, to);
+    part.from = mix(on.from, on.to, from) + on.scale_bow * (4.0f * from * (1.0f - from));
+    part.to = mix(on.from, on.to, to) + on.scale_bow * (4.0f * to * (1.0f - to));
     part.bow = on.bow * ((to - from) * (to - from));
+    part.scale_bow = on.scale_bow * ((to - from) * (to - from));
     part.start = mix(on.start, on.end, from);
     part.end = mix(on.start, on.end, to);
     return part;
@@ -130,7 +142,8 @@ float burin_crossing(BurinElement e, BurinStyle style, BurinPiece piece, BurinRa
 #if BURIN_BENDS != 0
     if (on.straight || on.side != 0.0f) return t;
     vec2 part = vec2(mix(on.range.x, on.range.y, shares.x), mix(on.range.x, on.range.y, shares.y));
-    float rate = dot(on.b - on.a + on.bow * (4.0f - 8.0f * share), across) / (on.range.y - on.range.x);
+    vec2 beside = clamp(vec2(share - 1.0e-2f, share + 1.0e-2f), vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
+    float rate = dot(burin_along(on, beside.y) - burin_along(on, beside.x), across) / ((beside.y - beside.x) * (on.range.y - on.range.x));
     // As steep as the chord of the values at least, within reason: where the parabola turns its tangent says nothing.
     float least = 0.25f * (values.y - values.x) / max(part.y - part.x, 1.0e-30f);
     rate = abs(rate) < abs(least) ? least : rate;

@@ -97,18 +97,18 @@ void burin_visit_piece(BurinElement e, BurinStyle style, BurinPiece piece, Burin
     }
     count = max(count, 1);
     vec2 range = vec2(piece.lo, piece.lo);
-    vec2 q = burin_section(e, style, piece, ray, piece.lo).q;
+    BurinSection b = burin_section(e, style, piece, ray, piece.lo);
     for (int i = 1; i <= BURIN_MAX_WAVE_SEGMENTS + 1; ++i) {
         float to = i == count ? piece.hi : (i == above ? part : mix(part, piece.hi, float(i - above) / float(count - above)));
         if (i < above) to = mix(piece.lo, part, float(i) / float(above));
         range = vec2(range.y, to);
-        vec2 qa = q;
-        vec2 qm = qa;
+        BurinSection a = b;
+        BurinSection middle = a;
 #if BURIN_BENDS != 0
-        qm = burin_section(e, style, piece, ray, 0.5f * (range.x + range.y)).q;
+        middle = burin_section(e, style, piece, ray, 0.5f * (range.x + range.y));
 #endif
-        q = burin_section(e, style, piece, ray, range.y).q;
-        BurinTrack on = burin_track(style, piece, ray, range, qa, qm, q);
+        b = burin_section(e, style, piece, ray, range.y);
+        BurinTrack on = burin_track(style, piece, ray, range, a, middle, b);
         if (burin_keep_side(e, style, piece, ray, on)) burin_judge(e, style, piece, ray, on, mark, pass);
         // At the end, as everywhere here: see burin_events.
         if (i >= count) break;
