@@ -101,15 +101,21 @@ bool burin_own_sector(BurinEnd end, float side) {
     return end.priority == (side < 0.0f ? BURIN_PRIORITY_LEFT : BURIN_PRIORITY_RIGHT);
 }
 
+// What a smooth joint, or an end on another path's line, leaves of the stretch, on both sides of the element.
+BurinPiece burin_clip_both(BurinPiece piece, BurinRay ray, BurinEnd end, float slack) {
+    if (!burin_clips_both(end)) return piece;
+    vec2 across = burin_clip_normal(end);
+    return burin_clip(piece, ray, end.vertex - across * slack, across);
+}
+
 // Borders that an end sets to the main part, and to the parts beyond the other end.
 BurinPiece burin_clip_main(BurinPiece piece, BurinRay ray, BurinEnd end, float side, bool curved,
                             float slack) {
+    if (burin_clips_both(end)) return burin_clip_both(piece, ray, end, slack);
     bool both = end.priority == BURIN_PRIORITY_BOTH;
     bool own = burin_own_sector(end, side);
-    bool clipped = own || burin_clips_both(end);
-    vec2 across = burin_clip_normal(end);
-    if (clipped) piece = burin_clip(piece, ray, end.vertex - across * (both ? slack : 0.0f), across);
-    if (clipped && (both || end.shape == BURIN_CORNER_MITRE)) return piece;
+    if (own) piece = burin_clip(piece, ray, end.vertex, burin_clip_normal(end));
+    if (own && end.shape == BURIN_CORNER_MITRE) return piece;
     // A hip beyond a line goes on as b' = b while |b| >= a.
     vec2 border = end.inward;
     if (both && end.shape == BURIN_END_HIP && !curved) border = end.inward + side * end.normal;
@@ -151,13 +157,6 @@ bool burin_ends_alike(BurinPiece piece, BurinRay ray, BurinEnd end) {
     bool clipped = end.priority == BURIN_PRIORITY_LEFT || end.priority == BURIN_PRIORITY_RIGHT;
     vec2 across = burin_clip_normal(end);
     return !clipped || min(dot(a, across), dot(b, across)) >= 0.0f;
-}
-
-// What a smooth joint, or an end on another path's line, leaves of the stretch, on both sides of the element.
-BurinPiece burin_clip_both(BurinPiece piece, BurinRay ray, BurinEnd end, float slack) {
-    if (!burin_clips_both(end)) return piece;
-    vec2 across = burin_clip_normal(end);
-    return burin_clip(piece, ray, end.vertex - across * slack, across);
 }
 
 // Whether an end has a part beyond it on `side`; asked before the part is worked out.

@@ -116,8 +116,6 @@ struct BurinShown {
     bool bent;   // stripes do not describe it
 };
 
-// Whether the element shows.
-
 // Whether ray or light meet the feature elsewhere, or in another size, than stripes tell. `light_way`: metres that the light moves over
 // the plane within the relief.
 bool burin_is_bent(BurinShown shown, vec2 slope, vec2 light_slope, float light_way, float radius) {
@@ -137,6 +135,7 @@ bool burin_is_bent(BurinShown shown, vec2 slope, vec2 light_slope, float light_w
     return max(max(curvature * shown.spread, waves), grown) > BURIN_MOST_BEND * coarse * coarse;
 }
 
+// Whether the element shows.
 bool burin_shows(BurinElement e, BurinRay ray, BurinFootprint footprint, vec2 light_slope, bool shadows,
                  BURIN_OUT(BurinShown) shown) {
     BurinStyle style = burin_style(e.style);
@@ -296,10 +295,9 @@ BurinSpan burin_span(BurinRay ray, BurinFootprint footprint, vec2 light_slope, b
 }
 
 // Whether the element comes so near that it may show, or want rays for its ends: a rough question, at a fraction of what
-// burin_shows costs. `light_way`: metres that the light moves over the plane within the relief.
-bool burin_may_show(BurinElement e, BurinRay ray, float radius, float light_way) {
-    BurinStyle style = burin_style(e.style);
-    float wide = style.reach * burin_widest(e);
+// burin_shows costs. `light_way`: metres that the light moves over the plane within the relief. `wide`: metres to either side at most.
+bool burin_may_show(BurinElement e, BurinRay ray, float radius, float light_way, BURIN_OUT(float) wide) {
+    wide = burin_style(e.style).reach * burin_widest(e);
     BurinEnd start = burin_end(e, true);
     BurinEnd end = burin_end(e, false);
     float lean = max(abs(burin_end_lean(start, e.t0)), abs(burin_end_lean(end, e.t2)));
@@ -317,8 +315,9 @@ void burin_gather_cell(vec2 index, BurinRay ray, float radius, float light_way) 
         if (i >= cell.count || !burin_gathered.complete) break;
         uint reference = burin_listed(cell, i, texel);
         BurinElement e = burin_element(reference, ray.origin, burin_cell_centre(index));
-        bool known = !burin_may_show(e, ray, radius, light_way);
-        burin_gathered.thin = burin_gathered.thin || (!known && burin_style(e.style).reach * burin_widest(e) < radius);
+        float wide;
+        bool known = !burin_may_show(e, ray, radius, light_way, wide);
+        burin_gathered.thin = burin_gathered.thin || (!known && wide < radius);
         for (int j = 0; j < BURIN_MAX_REGION_ELEMENTS; ++j) {
             if (known || j >= burin_gathered.count) break;
             known = burin_gathered.references[j] == reference && burin_gathered.images[j] == e.image;

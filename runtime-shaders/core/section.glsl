@@ -38,7 +38,8 @@ struct BurinEvents {
 };
 
 // A stretch of the ray as the profile sees it: straight, round the vertex of an end, or else a parabola through three of its places,
-// over scales that are one too, since a point that tapers to nothing is any number of widths away; it decides what is crossed. Where a crossing lies is then asked of the section itself.
+// over scales that are one too, since a point that tapers to nothing is any number of widths away; it decides what is crossed.
+// Where a crossing lies is then asked of the section itself.
 struct BurinTrack {
     vec2 range;  // drops at its ends
     vec2 a;      // section points there
@@ -76,14 +77,21 @@ BurinTrack burin_track(BurinStyle style, BurinPiece piece, BurinRay ray, vec2 ra
     return on;
 }
 
+// From `a` at share 0 to `b` at 1, by a parabola that stands `bow` off their chord in the middle.
+vec2 burin_bowed(vec2 a, vec2 b, vec2 bow, float share) {
+    return mix(a, b, share) + bow * (4.0f * share * (1.0f - share));
+}
+
 // Section point at `share` of the stretch, [0, 1].
 vec2 burin_along(BurinTrack on, float share) {
     vec2 q = mix(on.a, on.b, share);
 #if BURIN_BENDS != 0
-    float rise = on.straight ? 0.0f : 4.0f * share * (1.0f - share);
-    if (!on.straight)
-        q = (mix(on.a * on.from, on.b * on.to, share) + on.bow * rise) / max(mix(on.from, on.to, share) + on.scale_bow * rise, vec2(1.0e-3f, 1.0e-3f));
-    if (on.side != 0.0f) q = vec2(on.side * length(mix(on.start, on.end, share)), mix(on.a.y, on.b.y, share));
+    if (on.side != 0.0f) {
+        q.x = on.side * length(mix(on.start, on.end, share));
+    } else if (!on.straight) {
+        vec2 scales = max(burin_bowed(on.from, on.to, on.scale_bow, share), vec2(1.0e-3f, 1.0e-3f));
+        q = burin_bowed(on.a * on.from, on.b * on.to, on.bow, share) / scales;
+    }
 #endif
     return q;
 }
@@ -94,8 +102,8 @@ BurinTrack burin_track_part(BurinTrack on, float from, float to) {
     part.range = vec2(mix(on.range.x, on.range.y, from), mix(on.range.x, on.range.y, to));
     part.a = burin_along(on, from);
     part.b = burin_along(on, to);
-    part.from = mix(on.from, on.to, from) + on.scale_bow * (4.0f * from * (1.0f - from));
-    part.to = mix(on.from, on.to, to) + on.scale_bow * (4.0f * to * (1.0f - to));
+    part.from = burin_bowed(on.from, on.to, on.scale_bow, from);
+    part.to = burin_bowed(on.from, on.to, on.scale_bow, to);
     part.bow = on.bow * ((to - from) * (to - from));
     part.scale_bow = on.scale_bow * ((to - from) * (to - from));
     part.start = mix(on.start, on.end, from);

@@ -25,15 +25,12 @@ class MarkedRays {
     }
 
     const std::vector<std::uint8_t>& wanted() const { return wanted_; }
-    bool any_wanted() const { return std::any_of(wanted_.begin(), wanted_.end(), [](std::uint8_t one) { return one != 0; }); }
+    bool any_wanted() const { return any_wanted({0, 0, width_, height_}); }
 
     // What ray `k` of each pixel met; the first four lie in the quarters, row by row.
     void add(const std::vector<float>& pixels, std::size_t k) {
         for (std::size_t i = 0; i < count(); ++i) {
-            if (wanted_[i] == 0) continue;
-            for (std::size_t c = 0; c < 3; ++c) sum_[3 * i + c] += pixels[4 * i + c];
-            rays_[i] += 1.0f;
-            if (k < 4) seen_[i][k] = brightness_of(&pixels[4 * i]);
+            if (wanted_[i] != 0) add_ray(i, k, &pixels[4 * i]);
         }
     }
 
@@ -54,10 +51,9 @@ class MarkedRays {
                 if (wanted_[i] == 0) continue;
                 for (int k = 0; k < across * across; ++k) {
                     const int u = (x - window.left) * across + k % across, v = (y - window.low) * across + k / across;
-                    const float* met = &texels[4 * (std::size_t(v) * std::size_t(window.width * across) + std::size_t(u))];
-                    for (std::size_t c = 0; c < 3; ++c) sum_[3 * i + c] += met[c];
-                    rays_[i] += 1.0f;
-                    if (across == 2) seen_[i][std::size_t(k)] = brightness_of(met);
+                    const std::size_t texel = std::size_t(v) * std::size_t(window.width * across) + std::size_t(u);
+                    // Of more than 2 x 2 none stands for a quarter.
+                    add_ray(i, across == 2 ? std::size_t(k) : kNoQuarter, &texels[4 * texel]);
                 }
             }
     }
@@ -77,6 +73,14 @@ class MarkedRays {
 
   private:
     static constexpr float kStep = 4.0f / 255.0f;
+    static constexpr std::size_t kNoQuarter = 4;
+
+    // `quarter`: that it stands for; kNoQuarter or more: none.
+    void add_ray(std::size_t i, std::size_t quarter, const float* met) {
+        for (std::size_t c = 0; c < 3; ++c) sum_[3 * i + c] += met[c];
+        rays_[i] += 1.0f;
+        if (quarter < kNoQuarter) seen_[i][quarter] = brightness_of(met);
+    }
 
     // Of 4 x 4 quarters: the pixel's own and those around them.
     float range_around(int x, int y) const {

@@ -1,8 +1,8 @@
 // How surface.frag filters a pixel: its macro PIXEL_FILTER. Valid C++ and valid GLSL.
 //
-// RAYS: one ray through the middle. REGIONS: areas, and side x side rays where these do not suffice. MARKED: as REGIONS without the rays;
-// alpha is 1 where they are wanted and 2 where all of them are, for passes with RAYS to fill. Drivers that run both sides of every branch take half the time for
-// two such programs.
+// RAYS: one ray through the middle. REGIONS: areas, and side x side rays where these do not suffice. MARKED: as REGIONS without the
+// rays; alpha is 1 where they are wanted and 2 where all of them are, for passes with RAYS to fill. Drivers that run both sides of
+// every branch take half the time for two such programs.
 #ifndef BURIN_PIXEL_FILTER_H
 #define BURIN_PIXEL_FILTER_H
 

@@ -13,6 +13,14 @@ Vec2 middle_of(int column, int row, int side) { return {(column + 0.5) / side - 
 // From the middle of a cell, in cells.
 double shift_of(int line, int side) { return side < LEAST_MOVED_SIDE ? 0.0 : (MOVED_TURN(line, side) + 0.5) / side - 0.5; }
 
+// Moves the place to `index` that is nearest to `wish` of those from there on.
+template <typename Place, typename Middle>
+void bring_nearest(std::vector<Place>& places, std::size_t index, Vec2 wish, const Middle& middle) {
+    const auto nearer = [&](const Place& a, const Place& b) { return length(middle(a) - wish) < length(middle(b) - wish); };
+    const auto to = places.begin() + std::ptrdiff_t(index);
+    std::iter_swap(to, std::min_element(to, places.end(), nearer));
+}
+
 std::vector<Vec2> square_places(int side) {
     std::vector<Vec2> places;
     for (int k = 0; k < side * side; ++k) places.push_back(middle_of(k % side, k / side, side));
@@ -20,8 +28,7 @@ std::vector<Vec2> square_places(int side) {
         // Corners of a square turned by about 27 degrees.
         const double turn = 0.4636 + 1.5708 * double(i);
         const Vec2 wish{0.28 * std::cos(turn), 0.28 * std::sin(turn)};
-        const auto nearer = [&](Vec2 a, Vec2 b) { return length(a - wish) < length(b - wish); };
-        std::iter_swap(places.begin() + std::ptrdiff_t(i), std::min_element(places.begin() + std::ptrdiff_t(i), places.end(), nearer));
+        bring_nearest(places, i, wish, [](Vec2 place) { return place; });
     }
     return places;
 }
@@ -50,10 +57,7 @@ std::vector<RayPlace> ray_places(int side, Vec2 sample, int samples) {
     }
     // Quarters row by row.
     constexpr Vec2 kFirst[] = {{-0.26, -0.13}, {0.13, -0.26}, {-0.13, 0.26}, {0.26, 0.13}};
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto nearer = [&](const RayPlace& a, const RayPlace& b) { return length(a.middle - kFirst[i]) < length(b.middle - kFirst[i]); };
-        std::iter_swap(places.begin() + std::ptrdiff_t(i), std::min_element(places.begin() + std::ptrdiff_t(i), places.end(), nearer));
-    }
+    for (std::size_t i = 0; i < 4; ++i) bring_nearest(places, i, kFirst[i], [](const RayPlace& place) { return place.middle; });
     return places;
 }
 

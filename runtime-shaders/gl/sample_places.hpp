@@ -29,8 +29,8 @@ struct RayPlace {
     Vec2 shift;   // from there, for rays at grazing angles
 };
 
-// A sample's side x side rays, the first four of them spread, one in each quarter row by row, in units of its cell; `sample` is one of a grid with `samples` to a side. Of up to 2 x 2 per pixel
-// all lie in the middles of their cells, which is what [2010] 5.7 asks for ("halfway to the corners"). From 4 x 4 on they may be
+// A sample's side x side rays, the first four of them spread, one in each quarter row by row, in units of its cell; `sample` is one of a
+// grid with `samples` to a side. Of up to 2 x 2 per pixel all lie in the middles of their cells, which is what [2010] 5.7 asks for ("halfway to the corners"). From 4 x 4 on they may be
 // moved so that no two share a row or a column of the pixel. Middles are best for edges that run anyhow; but at grazing angles most
 // run along the horizon, and rays that share no row meet them at side^2 places instead of side: 4 dB.
 std::vector<RayPlace> ray_places(int side, Vec2 sample, int samples);
