@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures burin beside its rivals and judges, and remakes docs/performance.md and its plots from the results that there are.
 
-    bench/performance/run.sh [PART ...] [--quick] [--scene NAME ...] [--document]
+    bench/performance/run.sh [PART ...] [--quick] [--finest SIZE] [--scene NAME ...] [--document]
 
 Without parts all are measured, one after the other (hours on two cores, most of it for the truth's pictures and the rivals' maps, which are kept
 in the build folder; --quick takes an hour or two). What was measured lies in docs/performance/results, a run of one scene beside the run of all;
@@ -38,7 +38,7 @@ class Part:
 
 
 PARTS = {
-    "rivals": Part("rivals/bench_rivals", quick=["--quick", "--finest", "4096"], lines=True),
+    "rivals": Part("rivals/bench_rivals", quick=["--quick"], lines=True),
     "figure12": Part("rivals/bench_figure12"),
     "geometry": Part("geometry/bench_geometry"),
     "reference": Part("runtime/bench_runtime", ["reference"]),
@@ -68,6 +68,8 @@ def commit():
 
 def words_of(part, scene, arguments):
     words = part.words + (part.quick if arguments.quick else [])
+    if part.lines and arguments.finest:
+        words = words + ["--finest", str(arguments.finest)]
     if part.scenes:
         words = words + (["--scene", scene] if scene else [])
     return words
@@ -127,6 +129,7 @@ def parse():
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS))
     parser.add_argument("--quick", action="store_true", help="smaller pictures, fewer runs")
     parser.add_argument("--scene", action="append", help="only this one; more than once if wanted; atrium, pack and shares have none")
+    parser.add_argument("--finest", type=int, help="rivals' maps: 512 to 8192, the default, texels per side")
     parser.add_argument("--document", action="store_true", help="measure nothing")
     parser.add_argument("--build", default=build)
     parser.add_argument("--cache", default=os.path.join(build, "bench", "truth"))

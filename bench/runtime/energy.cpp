@@ -56,10 +56,7 @@ void measure(const Settings& settings, const Subject& subject) {
         const Asset asset = asset_of(subject, extent);
         std::printf("| %s | %g | %.4f ± %.4f ", subject.name.c_str(), cells, truth.value, truth.error);
         for (const Configuration& configuration : configurations(settings)) {
-            RenderOptions options = options_of(view, subject.prepared.resolved.size);
-            options.backend = settings.backend;
-            configuration.apply(options);
-            const auto picture = render_asset(asset, options);
+            const auto picture = render_asset(asset, render_options(settings, subject, view, configuration));
             if (picture) std::printf("| %.3f ", mean_of(*picture) / truth.value);
             else std::printf("| %s ", picture.error().message.c_str());
         }
@@ -71,12 +68,8 @@ void measure(const Settings& settings, const Subject& subject) {
 }  // namespace
 
 void ask_energy(const Settings& settings) {
-    std::printf("\n### Energy\n\nMean linear luminance of a picture while the camera goes away: the truth's, and the shader's over it.\n\n"
-                "| scene | cells per pixel | truth |");
-    for (const Configuration& configuration : configurations(settings)) std::printf(" %s |", configuration.name);
-    std::printf("\n|---|--:|--:|");
-    for (std::size_t i = 0; i < configurations(settings).size(); ++i) std::printf("--:|");
-    std::printf("\n");
+    std::printf("\n### Energy\n\nMean linear luminance of a picture while the camera goes away: the truth's, and the shader's over it.\n\n");
+    print_head(settings, "scene | cells per pixel | truth", 1, 2, {""});
     for_each_subject(settings, [&](const Subject& subject) { measure(settings, subject); });
 }
 

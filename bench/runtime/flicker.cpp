@@ -61,10 +61,7 @@ void measure(const Settings& settings, const Subject& subject, const Move& move)
             if (row == rows) {
                 frame = values_of(draw_truth(subject, view, settings.cache));
             } else {
-                RenderOptions options = options_of(view, subject.prepared.resolved.size);
-                options.backend = settings.backend;
-                settings_asked[row].apply(options);
-                const auto picture = render_asset(asset, options);
+                const auto picture = render_asset(asset, render_options(settings, subject, view, settings_asked[row]));
                 if (!picture) continue;
                 frame = values_of(*picture);
             }
@@ -81,11 +78,8 @@ void measure(const Settings& settings, const Subject& subject, const Move& move)
 }  // namespace
 
 void ask_flicker(const Settings& settings) {
-    std::printf("\n### Flicker\n\nMean change of sRGB values from frame to frame: the truth's, and the shader's over it.\n\n| scene | move | frames | truth |");
-    for (const Configuration& configuration : configurations(settings)) std::printf(" %s |", configuration.name);
-    std::printf("\n|---|---|--:|--:|");
-    for (std::size_t i = 0; i < configurations(settings).size(); ++i) std::printf("--:|");
-    std::printf("\n");
+    std::printf("\n### Flicker\n\nMean change of sRGB values from frame to frame: the truth's, and the shader's over it.\n\n");
+    print_head(settings, "scene | move | frames | truth", 2, 2, {""});
     for_each_subject(settings, [&](const Subject& subject) {
         for (const Move& move : kMoves) measure(settings, subject, move);
     });

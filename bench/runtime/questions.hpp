@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "subject.hpp"
+#include "truth_picture.hpp"
 
 namespace burin::bench {
 
@@ -24,6 +25,23 @@ struct Configuration {
     std::function<void(RenderOptions&)> apply;
 };
 std::vector<Configuration> configurations(const Settings& settings);
+
+// Head of a table: `fixed`, columns parted by bars, `texts` of text and then `numbers` of figures; then the `cells` of every setting.
+void print_head(const Settings& settings, const std::string& fixed, int texts, int numbers, const std::vector<std::string>& cells);
+
+// One view of a subject, as the truth has it and as the renderer gets it.
+struct Picture {
+    const Subject& subject;
+    const PlaneView& view;
+    const TruthPicture& truth;
+    const Asset& asset;
+};
+// Prints a row for every standard view of every flat subject in which a feature is seen: its names, then what `print_cells` prints of each setting.
+using PrintCells = std::function<void(const Picture&, const Configuration&, const RenderOptions&)>;
+void print_picture_rows(const Settings& settings, const PrintCells& print_cells);
+
+// How the renderer is to draw the view with this setting.
+RenderOptions render_options(const Settings& settings, const Subject& subject, const PlaneView& view, const Configuration& configuration);
 
 void ask_hits(const Settings& settings);
 void ask_holes(const Settings& settings);

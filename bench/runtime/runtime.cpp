@@ -3,6 +3,7 @@
 //     bench_runtime [QUESTION ...] [--scene NAME] [--setting NAME] [--quick] [--pictures FOLDER] [--cache FOLDER] [--backend egl]
 //
 // Questions: hits holes pictures memory flicker energy work features grid reference atrium tables cost; without any, all of them. Tables in Markdown go to standard output.
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <thread>
@@ -39,6 +40,49 @@ void for_each_subject(const Settings& settings, const std::function<void(const S
                 std::printf("| %s | refused: %s |\n", entry.name, subject.error().message.c_str());
         }
     }
+}
+
+void print_head(const Settings& settings, const std::string& fixed, int texts, int numbers, const std::vector<std::string>& cells) {
+    std::printf("| %s |", fixed.c_str());
+    for (const Configuration& configuration : configurations(settings))
+        for (const std::string& cell : cells) {
+            const char* of = &cell == &cells.front() ? configuration.name : "";
+            std::printf(" %s%s%s |", of, *of != 0 && !cell.empty() ? ": " : "", cell.c_str());
+        }
+    std::printf("\n|");
+    for (int i = 0; i < texts; ++i) std::printf("---|");
+    for (std::size_t i = 0; i < std::size_t(numbers) + cells.size() * configurations(settings).size(); ++i) std::printf("--:|");
+    std::printf("\n");
+}
+
+RenderOptions render_options(const Settings& settings, const Subject& subject, const PlaneView& view, const Configuration& configuration) {
+    RenderOptions options = options_of(view, subject.prepared.resolved.size);
+    options.backend = settings.backend;
+    configuration.apply(options);
+    return options;
+}
+
+namespace {
+
+void print_picture_row(const Settings& settings, const Subject& subject, const PlaneView& view, const PrintCells& print_cells) {
+    const TruthPicture truth = draw_truth(subject, view, settings.cache);
+    // From far away a map that ends is too small to hold a whole pixel.
+    if (std::count(truth.feature.begin(), truth.feature.end(), 1) == 0) return;
+    const Asset asset = asset_of(subject, extent_of(view, subject.prepared.resolved));
+    std::printf("| %s | %s ", subject.name.c_str(), view.name.c_str());
+    for (const Configuration& configuration : configurations(settings))
+        print_cells({subject, view, truth, asset}, configuration, render_options(settings, subject, view, configuration));
+    std::printf("|\n");
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+void print_picture_rows(const Settings& settings, const PrintCells& print_cells) {
+    for_each_subject(settings, [&](const Subject& subject) {
+        for (const PlaneView& view : standard_views(subject, settings.quick ? 96 : 160, settings.quick ? 72 : 120))
+            print_picture_row(settings, subject, view, print_cells);
+    });
 }
 
 namespace {

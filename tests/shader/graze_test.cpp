@@ -147,5 +147,34 @@ TEST(Graze, WallsStandWhereElementsEnd) {
     EXPECT_GE(walls, kRays / 100);
 }
 
+// Through the last part of an element that tapers to a point. Seen in widths of the feature a point is any distance away, so a decoder
+// that takes the way there for a parabola loses the whole tip, which is too small a part of a pattern for rays aimed anywhere to tell.
+PatternRay tip_ray(const std::vector<Element>& tapers, double half_width, Random& random) {
+    const Element& e = tapers[std::size_t(random.below(int(tapers.size())))];
+    const bool ends = e.width1 < e.width0;
+    const Vec2 tip = ends ? e.p2 : e.p0, foot = ends ? e.p0 : e.p2;
+    const double left = random.between(0.01, 0.3);
+    const Vec2 at = lerp(tip, foot, left) + normal_of(unit(foot - tip)) * (random.between(-1.0, 1.0) * half_width * left);
+    const Vec2 slope = random.direction() * random.between(0.2, 3.0);
+    const Vec2 origin = at - slope * random.between(0.0, 0.003);
+    return {{float(origin.x), float(origin.y)}, {float(slope.x), float(slope.y)}};
+}
+
+TEST(Graze, TipsOfTapersAreMet) {
+    const PreparedPattern pattern = prepare(scenes::make_isolated_end().parts[0].pattern);
+    std::vector<Element> tapers;
+    for (const ResolvedElement& e : pattern.stored.elements)
+        if (std::min(e.element.width0, e.element.width1) == 0.0) tapers.push_back(e.element);
+    ASSERT_FALSE(tapers.empty());
+    Random random(kSeed);
+    std::vector<AimedRay> rays;
+    for (int i = 0; i < kRays; ++i) rays.push_back({tip_ray(tapers, 0.0026, random), RayKind::feature});
+    const Agreement agreement = judge(pattern, rays, decode_rays(pattern, rays));
+    std::cout << agreement.report("tips");
+    EXPECT_GE(agreement.facet_share(RayKind::feature), 0.999) << "seed " << kSeed << "\n" << agreement.worst;
+    EXPECT_LE(agreement.height_differs[0], kRays / 1000) << agreement.worst;
+    EXPECT_LE(agreement.borders[0], kRays / 50);
+}
+
 }  // namespace
 }  // namespace burin::testing
