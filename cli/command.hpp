@@ -33,6 +33,7 @@ struct Command {
 
 ExitCode run_convert(const Arguments& arguments);
 ExitCode run_vectorize(const Arguments& arguments);
+ExitCode run_pack(const Arguments& arguments);
 ExitCode run_render(const Arguments& arguments);
 ExitCode run_check(const Arguments& arguments);
 ExitCode run_info(const Arguments& arguments);

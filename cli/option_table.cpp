@@ -45,12 +45,13 @@ std::vector<OptionSpec> make_table() {
         {"--output,-o", "render", text, "PICTURE", "", "", 0, 0, "", true,
          "the picture to write: .png; with --top also .exr or .tif"},
         {"--output,-o", "vectorize", text, "PATHS.svg", "", "", 0, 0, "", true, "the drawing to write"},
+        {"--output,-o", "pack", text, "OUT.glb", "", "", 0, 0, "", true, "the asset to write"},
         {"--output,-o", "mesh", text, "MESH.glb", "", "", 0, 0, "", true, "the triangles to write"},
         {"--against", "check", text, "MAP", "", "", 0, 0, "", true, "the height map the asset was made from"},
 
-        {"--model", "convert", text, "FILE", "", "", 0, 0, "", false,
+        {"--model", "convert pack", text, "FILE", "", "", 0, 0, "", false,
          "put the pattern on this glTF, glb or obj; without it, on a rectangle"},
-        {"--material", "convert check mesh", text, "NAME", "", "", 0, 0, "", false,
+        {"--material", "convert pack check mesh", text, "NAME", "", "", 0, 0, "", false,
          "which material, where the file has several"},
         {"--size", "convert vectorize", extent, "W[xH]", "m", "1", 1e-6, 1e6, "", false,
          "extent of the map along u and v; H follows from the map when left out"},
@@ -71,7 +72,7 @@ std::vector<OptionSpec> make_table() {
          "given up until they do, and the residual gets what is left"},
         {"--max-bytes", "vectorize", bytes, "BYTES", "bytes", "", 1, kMostBytes, "", false,
          "most that both textures of convert would take as uploaded, K, M and G for KiB, MiB and GiB: paths are given up until they do"},
-        {"--cell-size", "convert", number, "METRES", "m", "0", 0, 1e6, "", false,
+        {"--cell-size", "convert pack", number, "METRES", "m", "0", 0, 1e6, "", false,
          "side of a grid cell; 0 chooses by a cost model"},
         {"--residual", "convert", either, "WHICH", "texels", "auto", 1, 16777216, "auto|none", false,
          "normal map of what the paths leave out: of a size by its content, none, or at most so many texels"},
@@ -79,7 +80,7 @@ std::vector<OptionSpec> make_table() {
          "write a page to look at: map, error, paths, the worst places"},
         {"--error-map", "convert vectorize", text, "PICTURE", "", "", 0, 0, "", false,
          "write the height error: .png in colours, red too high and blue too low; .exr or .tif as numbers"},
-        {"--threads", "convert vectorize check", integer, "COUNT", "", "0", 0, 256, "", false,
+        {"--threads", "convert vectorize pack check", integer, "COUNT", "", "0", 0, 256, "", false,
          "threads to work with, 0 for all cores; the result does not depend on it"},
 
         {"--max-rms", "check", number, "PERCENT", "% of range", "", 0, 100, "", false,
@@ -148,9 +149,9 @@ std::vector<OptionSpec> make_table() {
         {"--threads", "render", integer, "COUNT", "", "0", 0, 256, "", false,
          "threads of --backend reference, 0 for all cores; the picture does not depend on it"},
 
-        {"--format", "convert vectorize render check info validate mesh", choice, "WHICH", "", "text", 0, 0, "text|json", false,
+        {"--format", "convert vectorize pack render check info validate mesh", choice, "WHICH", "", "text", 0, 0, "text|json", false,
          "how results are printed"},
-        {"--quiet,-q", "convert vectorize render check info validate mesh", flag, "", "", "", 0, 0, "", false,
+        {"--quiet,-q", "convert vectorize pack render check info validate mesh", flag, "", "", "", 0, 0, "", false,
          "no progress and no text; errors and json stay"},
     };
 }

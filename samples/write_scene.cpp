@@ -2,11 +2,7 @@
 
 #include <cmath>
 
-#include <burin/bake.hpp>
-#include <burin/grid.hpp>
-#include <burin/pack.hpp>
-#include <burin/rasterize.hpp>
-#include <burin/resolve.hpp>
+#include <burin/author.hpp>
 
 #include "scenes/drawing.hpp"
 
@@ -42,34 +38,9 @@ Residual grain(double steepest) {
     return residual;
 }
 
-struct Packed {
-    PackedTextures textures;
-    PathDetail detail;
-    Fallback fallback;
-    std::size_t elements = 0;
-};
-
-Result<Packed> pack_part(const Pattern& pattern) {
-    const auto resolved = resolve_pattern(pattern);
-    if (!resolved) return resolved.error();
-    const auto grid = build_grid(*resolved);
-    if (!grid) return grid.error();
-    auto textures = pack_textures(*resolved, *grid);
-    if (!textures) return textures.error();
-    constexpr int kSide = 512;  // of the heights that the fallback is baked from, along u
-    const int rows = std::max(16, int(std::lround(kSide * resolved->size.y / resolved->size.x)));
-    const Image heights = rasterize_height(*resolved, kSide, rows, {.samples = 2});
-    Packed packed;
-    packed.detail = describe_pattern(*resolved, *textures);
-    packed.textures = std::move(*textures);
-    packed.elements = resolved->elements.size();
-    packed.fallback = bake_fallback(heights, resolved->size, resolved->depth, resolved->wrap);
-    return packed;
-}
-
 // The part's pattern on a material of the file's model.
 Result<Model> add_part(SceneFile& file, const Model& model, const Part& part, const std::string& material) {
-    const auto packed = pack_part(part.pattern);
+    const auto packed = author_textures(part.pattern);
     if (!packed) return Error{packed.error().code, part.name + ": " + packed.error().message};
     Residual residual;
     if (part.erosion > 0.0) {
@@ -81,7 +52,7 @@ Result<Model> add_part(SceneFile& file, const Model& model, const Part& part, co
     auto glb = write_glb(model, packed->textures, packed->detail, packed->fallback, {.material = material}, residual);
     if (!glb) return glb.error();
     file.bytes = std::move(*glb);
-    file.elements += packed->elements;
+    file.elements += static_cast<std::size_t>(packed->stats.lines + packed->stats.quadratics);
     file.texture_bytes += 4 * (packed->textures.grid.size() + packed->textures.data.size());
     return read_model_bytes(file.bytes, "");
 }

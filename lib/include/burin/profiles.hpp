@@ -1,0 +1,54 @@
+// Profiles by name: a small library of cross-sections for patterns that are drawn by hand or generated.
+//
+//     "flat(floor=0.4)" --[parse_profile]--> ProfileSpec --[make_profile]--> Profile of a groove or ridge
+//                                                        --[make_step_profile]--> Profile of a step
+//
+// Every name is one curve, the flank: from (0, 0), the ground at the side, to (1, 1), the bottom of a groove, top of a ridge or far
+// level of a step. A groove or ridge has it on both sides, mirrored, with a floor between them; a step has it once. `docs/profiles.md`
+// shows all of them, and `profile_table()` is the one list of names and parameters.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <burin/pattern.hpp>
+#include <burin/result.hpp>
+
+namespace burin {
+
+struct ProfileSpec {
+    std::string name = "vee";
+    std::map<std::string, double> parameters;  // those that differ from the usual ones
+};
+
+struct ProfileParameter {
+    const char* name;
+    double usual, low, high;  // both ends included
+    const char* help;         // one line, no full stop
+};
+
+struct ProfileEntry {
+    const char* name;
+    const char* help;
+    std::vector<ProfileParameter> parameters;
+};
+
+// Every profile that has a name, in the order of the documentation.
+const std::vector<ProfileEntry>& profile_table();
+
+// "NAME" or "NAME(parameter=number, ...)". Fails with invalid_argument: unknown name or parameter (the message lists those there
+// are), no number, a number out of its range.
+Result<ProfileSpec> parse_profile(std::string_view text);
+
+// Section of a groove (height < 0) or ridge (height > 0), centred on b = 0. width: between the ends on the ground, metres, > 0.
+// height: of its bottom or top above the ground, metres, not 0. Fails as parse_profile does, and with invalid_argument for a
+// width or height that is not finite, or 0.
+Result<Profile> make_profile(const ProfileSpec& spec, double width, double height);
+
+// Section of a step, from the ground on the left to `height` above it on the right, `width` metres wide and centred on b = 0.
+// Width 0 is an upright wall, whatever the name. Fails as make_profile does.
+Result<Profile> make_step_profile(const ProfileSpec& spec, double width, double height);
+
+}  // namespace burin
