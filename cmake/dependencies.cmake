@@ -13,6 +13,10 @@ set(CMAKE_MESSAGE_LOG_LEVEL ${CMAKE_MESSAGE_LOG_LEVEL_BEFORE})
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(ZLIB REQUIRED)
+# By pkg-config: its CMake package asks for the headers of Cairo and GLib, which the parser of path data does not need.
+pkg_check_modules(2geom REQUIRED IMPORTED_TARGET 2geom)
+pkg_check_modules(pugixml REQUIRED IMPORTED_TARGET pugixml)
+pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)
 # By pkg-config: Debian's CMake package of OpenImageIO asks for its tools, and those for Qt.
 pkg_check_modules(openimageio REQUIRED IMPORTED_TARGET GLOBAL OpenImageIO)
 add_library(OpenImageIO::OpenImageIO ALIAS PkgConfig::openimageio)
