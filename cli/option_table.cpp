@@ -1,6 +1,7 @@
 // The table itself. Defaults that a stage defines are taken from its options struct, so that they stand once.
 #include <string>
 
+#include <burin/svg.hpp>
 #include <burin/vectorize.hpp>
 
 #include <gl/render.hpp>
@@ -34,6 +35,7 @@ std::string plain(double value) {
 std::vector<OptionSpec> make_table() {
     const VectorizeOptions vectorize;
     const RenderOptions render;
+    const SvgOptions svg;
     const reference::ReferenceOptions reference;
     const Environment environment;
     const std::string light = plain(render.light.azimuth) + "," + plain(render.light.elevation);
@@ -55,6 +57,8 @@ std::vector<OptionSpec> make_table() {
          "which material, where the file has several"},
         {"--size", "convert vectorize", extent, "W[xH]", "m", "1", 1e-6, 1e6, "", false,
          "extent of the map along u and v; H follows from the map when left out"},
+        {"--size", "pack", extent, "W[xH]", "m", "", 1e-6, 1e6, "", false,
+         "extent of the drawing's page along u and v; as the drawing says when left out"},
         {"--depth", "convert vectorize", number, "METRES", "m", depth, 1e-9, 1e5, "", false,
          "height difference between white and black"},
         {"--polarity", "convert vectorize check info", choice, "WHICH", "", "height", 0, 0, "height|depth", false,
@@ -65,6 +69,15 @@ std::vector<OptionSpec> make_table() {
          "whether the map tiles; automatic looks at its borders"},
         {"--tolerance", "convert vectorize", number, "TEXELS", "texels", tolerance, 0, 8, "", false,
          "farthest a curve may lie from the traced line; 0 chooses by the map's grain"},
+        {"--tolerance", "pack", number, "METRES", "m", "", 1e-12, 1e5, "", false,
+         "farthest a curve may lie from the drawing's; 5e-5 of the page's longer side when left out"},
+        {"--wrap", "pack", choice, "WHICH", "", "", 0, 0, "repeat|clamp", false, "whether the pattern tiles; clamp, or as the file says"},
+        {"--stroke", "pack", text, "MEANING", "", svg.stroke, 0, 0, "", false,
+         "what strokes mean that nothing else is said of: groove, ridge or none, then a profile, a height and a width if wanted, such as 'ridge bead 0.4mm'"},
+        {"--fill", "pack", text, "MEANING", "", svg.fill, 0, 0, "", false,
+         "what fills mean: sunken, plateau, ground or none, then a profile of the edge, a height and the edge's width if wanted"},
+        {"--meaning", "pack", text, "NAME=MEANING;...", "", "", 0, 0, "", false,
+         "what strokes or fills of a layer, class, id or colour mean, such as 'rivets=plateau bead 1mm; #ff0000=groove 2mm'"},
         {"--max-error", "convert vectorize", number, "PERCENT", "% of range", "", 1e-3, 100, "", false,
          "height error that 99.9 % of the texels keep; curves come closer until they do, or an error says what works"},
         {"--max-bytes", "convert", bytes, "BYTES", "bytes", "", 1, kMostBytes, "", false,

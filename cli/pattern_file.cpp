@@ -1,11 +1,58 @@
 #include "pattern_file.hpp"
 
+#include <burin/image_io.hpp>
+#include <burin/svg.hpp>
+
 #include "options.hpp"
+#include "output_file.hpp"
 
 namespace burin::cli {
+namespace {
 
-Result<PatternFile> read_pattern_file(const std::string& path, const Arguments&) {
-    return Error{ErrorCode::unsupported, "'" + path + "' is no drawing that is known; an SVG file or a pattern in JSON works"};
+SvgOptions svg_options(const Arguments& arguments) {
+    SvgOptions options;
+    if (arguments.given("--size")) {
+        const auto sides = arguments.numbers("--size");
+        options.width = sides[0];
+        if (sides.size() > 1) options.height = sides[1];
+    }
+    if (arguments.given("--tolerance")) options.tolerance = arguments.number("--tolerance");
+    if (arguments.given("--wrap")) options.wrap = arguments.text("--wrap") == "repeat" ? Wrap::repeat : Wrap::clamp;
+    options.stroke = arguments.text("--stroke");
+    options.fill = arguments.text("--fill");
+    return options;
+}
+
+// NAME=MEANING, more of them parted by semicolons.
+Result<std::vector<std::pair<std::string, std::string>>> rules_of(const std::string& text) {
+    std::vector<std::pair<std::string, std::string>> rules;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(';', at), text.size());
+        const std::string one = text.substr(at, end - at);
+        const std::size_t equal = one.find('=');
+        if (equal == std::string::npos || equal == 0)
+            return Error{ErrorCode::invalid_argument, "--meaning '" + one + "' is not NAME=MEANING, such as 'Panel lines=groove vee 0.5mm'"};
+        rules.emplace_back(one.substr(0, equal), one.substr(equal + 1));
+        at = end + 1;
+    }
+    return rules;
+}
+
+}  // namespace
+
+Result<PatternFile> read_pattern_file(const std::string& path, const Arguments& arguments) {
+    const auto bytes = read_file(path, kMaxSvgBytes);
+    if (!bytes) return bytes.error();
+    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    if (!has_suffix(path, "svg") && text.find("<svg") == std::string_view::npos)
+        return Error{ErrorCode::unsupported, "'" + path + "' is no drawing that is known; an SVG file works"};
+    SvgOptions options = svg_options(arguments);
+    auto rules = rules_of(arguments.text("--meaning"));
+    if (!rules) return rules.error();
+    options.rules = std::move(*rules);
+    auto drawing = read_svg(text, options);
+    if (!drawing) return Error{drawing.error().code, path + ": " + drawing.error().message};
+    return PatternFile{std::move(drawing->pattern), std::move(drawing->sources), std::move(drawing->notes)};
 }
 
 }  // namespace burin::cli

@@ -13,6 +13,7 @@ class Arguments;
 
 struct PatternFile {
     Pattern pattern;
+    std::vector<std::string> sources;  // of each path, where the file tells: "line 12, path 'id'"
     std::vector<std::string> notes;  // what was left out or taken in another way, one sentence each
 };
 

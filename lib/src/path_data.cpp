@@ -207,7 +207,10 @@ void PathPen::close() {
     if (!open_) return;
     Subpath& subpath = subpaths_.back();
     const Vec2 here = transform_(here_), start = transform_(start_);
-    if (!(here == start)) append(line_between(here, start));
+    // Relative coordinates come back to the start but for rounding.
+    const bool back = !subpath.elements.empty() && length(here - start) < 0.01 * tolerance_;
+    if (back) subpath.elements.back().p2 = start;
+    else if (!(here == start)) append(line_between(here, start));
     subpath.closed = !subpath.elements.empty();
     here_ = start_;
     open_ = false;

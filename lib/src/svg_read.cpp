@@ -1,0 +1,439 @@
+// read_svg: shapes of a drawing to strokes and regions, these to paths.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include <burin/svg.hpp>
+
+#include "resolve_curve.hpp"
+#include "svg_document.hpp"
+#include "svg_meaning.hpp"
+#include "svg_own.hpp"
+#include "svg_regions.hpp"
+#include "svg_strokes.hpp"
+
+namespace burin {
+namespace svg {
+namespace {
+
+bool is_paint(const std::string& paint) { return !paint.empty() && paint != "none" && paint != "transparent"; }
+
+bool is_seen(const Style& style, Property opacity) {
+    for (const Property p : {opacity, Property::opacity}) {
+        const auto value = parse_length(style[p], 1.0);
+        if (value && *value <= 0.0) return false;
+    }
+    return true;
+}
+
+std::string color_of(const Style& style, Property paint, const char* usual) {
+    const std::string& text = style[paint];
+    if (text == "currentColor" || text == "currentcolor") return style[Property::color].empty() ? "#000000" : plain_color(style[Property::color]);
+    return plain_color(text.empty() ? usual : text);
+}
+
+// Profiles of a pattern, each stored once. Beyond as many as a drawing has by hand, widths share profiles by scales.
+class ProfileList {
+  public:
+    explicit ProfileList(Pattern& pattern) : pattern_(pattern) {}
+
+    struct Section {
+        std::uint32_t index = 0;
+        double width = 0.0, height = 0.0;  // of scale 1; height below 0 for a groove
+    };
+    // Of a line that is `width` metres wide where it is widest.
+    Result<Section> of_stroke(const Meaning& meaning, double width) {
+        if (sections_.size() >= kMostWidths) width = std::exp2(std::ceil(std::log2(width)));
+        const double height = (meaning.kind == Kind::groove ? -1.0 : 1.0) * (meaning.height > 0.0 ? meaning.height : 0.5 * width);
+        const ProfileSpec spec = meaning.profile.value_or(ProfileSpec{});
+        const auto key = std::tuple(spec.name, spec.parameters, width, height);
+        if (const auto found = sections_.find(key); found != sections_.end()) return found->second;
+        auto profile = make_profile(spec, width, height);
+        if (!profile) return profile.error();
+        const Section section{add(std::move(*profile)), width, height};
+        sections_.emplace(key, section);
+        return section;
+    }
+
+    Result<std::uint32_t> of_step(const Meaning& meaning, double rise) {
+        const double width = meaning.width > 0.0 ? meaning.width : meaning.profile ? std::abs(rise) : 0.0;
+        const ProfileSpec spec = meaning.profile.value_or(ProfileSpec{});
+        const auto key = std::tuple(spec.name, spec.parameters, width, rise);
+        if (const auto found = steps_.find(key); found != steps_.end()) return found->second;
+        auto profile = make_step_profile(spec, width, rise);
+        if (!profile) return profile.error();
+        return steps_[key] = add(std::move(*profile));
+    }
+
+    // A stroke that runs along a step: its section, with the wall in the middle.
+    std::uint32_t of_stroked_step(std::uint32_t stroke, double rise) {
+        const auto key = std::pair(stroke, rise);
+        if (const auto found = stroked_.find(key); found != stroked_.end()) return found->second;
+        const Profile section = pattern_.profiles[stroke];
+        Profile profile;
+        bool risen = false;
+        for (std::size_t i = 0; i < section.points.size(); ++i) {
+            const ProfilePoint& p = section.points[i];
+            if (!risen && p.b >= 0.0) {
+                const ProfilePoint& q = section.points[i == 0 ? 0 : i - 1];
+                const double share = p.b > q.b ? -q.b / (p.b - q.b) : 1.0, h = q.h + (p.h - q.h) * share;
+                profile.points.push_back({0.0, h});
+                profile.points.push_back({0.0, h + rise});
+                risen = true;
+                if (p.b == 0.0) continue;
+            }
+            profile.points.push_back({p.b, p.h + (risen ? rise : 0.0)});
+        }
+        return stroked_[key] = add(std::move(profile));
+    }
+
+  private:
+    static constexpr std::size_t kMostWidths = 1024;
+    std::uint32_t add(Profile profile) {
+        pattern_.profiles.push_back(std::move(profile));
+        return std::uint32_t(pattern_.profiles.size() - 1);
+    }
+    using Key = std::tuple<std::string, std::map<std::string, double>, double, double>;
+    Pattern& pattern_;
+    std::map<Key, Section> sections_;
+    std::map<Key, std::uint32_t> steps_;
+    std::map<std::pair<std::uint32_t, double>, std::uint32_t> stroked_;
+};
+
+// A curve whichever way it runs, to find strokes that lie on outlines.
+using CurveKey = std::array<double, 6>;
+CurveKey key_of(const Element& e) {
+    const Vec2 control = e.kind == ElementKind::line ? lerp(e.p0, e.p2, 0.5) : e.p1;
+    const bool forward = std::pair(e.p0.x, e.p0.y) <= std::pair(e.p2.x, e.p2.y);
+    const Vec2 a = forward ? e.p0 : e.p2, b = forward ? e.p2 : e.p0;
+    return {a.x, a.y, control.x, control.y, b.x, b.y};
+}
+
+class Drawing {
+  public:
+    Drawing(Document document, const SvgOptions& options, Meanings meanings)
+        : document_(std::move(document)), options_(options), meanings_(std::move(meanings)), profiles_(out_.pattern) {}
+
+    Result<SvgDrawing> make() {
+        if (const Status begun = begin(); !begun) return begun.error();
+        if (const Status read = read_shapes(); !read) return read.error();
+        if (const Status stepped = add_steps(); !stepped) return stepped.error();
+        for (std::size_t i = 0; i < strokes_.size(); ++i)
+            if (const Status added = add_stroke(i); !added) return added.error();
+        bound_heights();
+        out_.notes = document_.notes.list();
+        return std::move(out_);
+    }
+
+  private:
+    Status begin() {
+        Pattern& pattern = out_.pattern;
+        if (document_.own) {
+            auto root = read_own_root(document_);
+            if (!root) return root.error();
+            pattern = std::move(*root);
+            own_high_ = pattern.base_offset, own_low_ = pattern.base_offset - pattern.depth;
+        } else {
+            pattern.size = document_.size;
+            pattern.wrap = Wrap::clamp;
+        }
+        if (options_.wrap) pattern.wrap = *options_.wrap;
+        tolerance_ = options_.tolerance > 0.0 ? options_.tolerance : 5e-5 * std::max(pattern.size.x, pattern.size.y);
+        usual_step_ = std::min(pattern.size.x, pattern.size.y) / 200.0;
+        return Done{};
+    }
+
+    // A drawing of white shapes alone is about these; among others white is paper.
+    bool white_is_ground() {
+        bool other = false;
+        for (const Shape& shape : document_.shapes)
+            other = other || (shape.fillable && !is_own(document_, shape) && is_paint(color_of(shape.style, Property::fill, "#000000")) &&
+                              is_seen(shape.style, Property::fill_opacity) && color_of(shape.style, Property::fill, "#000000") != "#ffffff");
+        return other;
+    }
+
+    Status read_shapes() {
+        const bool paper = white_is_ground();
+        for (std::size_t i = 0; i < document_.shapes.size(); ++i) {
+            const Shape& shape = document_.shapes[i];
+            if (is_own(document_, shape)) {
+                if (const Status added = add_own_paths(shape, out_.pattern, document_.notes); !added) return added;
+                out_.sources.resize(out_.pattern.paths.size(), shape.place);
+                continue;
+            }
+            if (document_.own && shape.names->data.contains("points")) continue;  // a profile that was made visible
+            if (const Status filled = read_fill(i, paper); !filled) return filled;
+            if (const Status stroked = read_stroke(i); !stroked) return stroked;
+        }
+        return Done{};
+    }
+
+    Status read_fill(std::size_t index, bool paper) {
+        const Shape& shape = document_.shapes[index];
+        const std::string color = color_of(shape.style, Property::fill, "#000000");
+        if (!shape.fillable || !is_paint(color) || !is_seen(shape.style, Property::fill_opacity)) return Done{};
+        auto meaning = meanings_.of(shape, true, color);
+        if (!meaning) return meaning.error();
+        if (paper && color == "#ffffff" && !meanings_.said(shape, true, color)) {
+            document_.notes.add("white fill is taken as ground, since other fills are not white", shape.place);
+            meaning->kind = Kind::ground;
+        }
+        if (meaning->kind == Kind::none) return Done{};
+        Region region;
+        region.outline = &shape.outline;
+        region.even_odd = shape.style[Property::fill_rule] == "evenodd";
+        const double height = meaning->height > 0.0 ? meaning->height : usual_step_;
+        region.level = meaning->kind == Kind::plateau ? height : meaning->kind == Kind::sunken ? -height : 0.0;
+        region.style = region_meanings_.size();
+        regions_.push_back(region);
+        region_meanings_.push_back(*meaning);
+        region_shapes_.push_back(index);
+        return Done{};
+    }
+
+    Status read_stroke(std::size_t index) {
+        const Shape& shape = document_.shapes[index];
+        const std::string color = color_of(shape.style, Property::stroke, "none");
+        if (!is_paint(color) || !is_seen(shape.style, Property::stroke_opacity)) return Done{};
+        const auto meaning = meanings_.of(shape, false, color);
+        if (!meaning) return meaning.error();
+        if (meaning->kind == Kind::none) return Done{};
+        auto strokes = strokes_of(shape, *meaning, out_.pattern.size, document_.notes);
+        if (!strokes) return strokes.error();
+        for (Stroke& stroke : *strokes) {
+            stroke.shape = index;
+            strokes_.push_back(std::move(stroke));
+        }
+        return Done{};
+    }
+
+    // Part of a stroke's element that a step took over.
+    struct Taken {
+        double from, to;
+    };
+    struct StrokePlace {
+        std::size_t stroke, element;
+    };
+
+    // Styles are merged where the edges would look the same, so that neighbours join.
+    void merge_styles() {
+        std::map<std::tuple<Kind, std::string, double, double>, std::size_t> same;
+        for (Region& region : regions_) {
+            const Meaning& m = region_meanings_[region.style];
+            std::string profile = m.profile ? m.profile->name : "";
+            if (m.profile)
+                for (const auto& [name, value] : m.profile->parameters) profile += " " + name + std::to_string(value);
+            region.style = same.try_emplace({m.kind, profile, m.height, m.width}, region.style).first->second;
+        }
+    }
+
+    Status add_steps() {
+        if (regions_.empty()) return Done{};
+        merge_styles();
+        for (std::size_t s = 0; s < strokes_.size(); ++s)
+            if (!strokes_[s].dashed)
+                for (std::size_t e = 0; e < strokes_[s].elements.size(); ++e) stroke_places_.emplace(key_of(strokes_[s].elements[e]), StrokePlace{s, e});
+        const auto runs = trace_steps(regions_, {out_.pattern.size, 0.5 * tolerance_});
+        if (!runs) return runs.error();
+        for (const StepRun& run : *runs)
+            if (const Status added = add_run(run); !added) return added;
+        return Done{};
+    }
+
+    // The stroke that lies on this piece of a step, if any.
+    const StrokePlace* stroke_on(const StepSource& source) const {
+        if (source.region == kNone || source.subpath == kNone) return nullptr;
+        const Element& e = (*regions_[source.region].outline)[source.subpath].elements[source.element];
+        const auto found = stroke_places_.find(key_of(e));
+        return found == stroke_places_.end() ? nullptr : &found->second;
+    }
+
+    // Splits the run where strokes begin or end to lie on it.
+    Status add_run(const StepRun& run) {
+        const std::size_t n = run.elements.size();
+        std::vector<const StrokePlace*> on;
+        for (const StepSource& source : run.sources) on.push_back(stroke_on(source));
+        const auto same = [&](std::size_t i, std::size_t j) { return (on[i] == nullptr) == (on[j] == nullptr) && (!on[i] || on[i]->stroke == on[j]->stroke); };
+        std::size_t start = 0;
+        bool uniform = true;
+        for (std::size_t i = 1; i < n; ++i) uniform = uniform && same(i - 1, i);
+        if (run.closed && !uniform)
+            for (std::size_t i = 0; i < n; ++i)
+                if (!same((i + n - 1) % n, i)) start = i;
+        for (std::size_t k = 0; k < n;) {
+            std::size_t count = 1;
+            while (k + count < n && same((start + k) % n, (start + k + count) % n)) ++count;
+            if (const Status added = add_step_path(run, start + k, count, on, run.closed && count == n); !added) return added;
+            k += count;
+        }
+        return Done{};
+    }
+
+    Status add_step_path(const StepRun& run, std::size_t begin, std::size_t count, const std::vector<const StrokePlace*>& on, bool closed) {
+        const std::size_t n = run.elements.size();
+        Path path;
+        path.closed = closed;
+        path.level = run.left;
+        const double rise = run.right - run.left;
+        const StrokePlace* stroke = on[begin % n];
+        if (stroke == nullptr) {
+            const auto profile = profiles_.of_step(region_meanings_[run.style], rise);
+            if (!profile) return profile.error();
+            path.profile = *profile;
+        } else {
+            const auto section = section_of(strokes_[stroke->stroke]);
+            if (!section) return section.error();
+            path.profile = profiles_.of_stroked_step(section->index, rise);
+            path.join = strokes_[stroke->stroke].join;
+            note_heights(strokes_[stroke->stroke].meaning, section->height);
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = (begin + k) % n;
+            Element e = run.elements[i];
+            if (on[i] != nullptr) take_over(*on[i], run.sources[i], e);
+            path.elements.push_back(e);
+        }
+        const std::size_t region = run.sources[begin % n].region;
+        add_path(std::move(path), region == kNone ? "" : document_.shapes[region_shapes_[region]].place);
+        level_low_ = std::min({level_low_, run.left, run.right}), level_high_ = std::max({level_high_, run.left, run.right});
+        return Done{};
+    }
+
+    // The step's piece gets the stroke's width, and the stroke loses the piece.
+    void take_over(const StrokePlace& place, const StepSource& source, Element& e) {
+        const Stroke& stroke = strokes_[place.stroke];
+        const Element& line = stroke.elements[place.element];
+        const Element& outline = (*regions_[source.region].outline)[source.subpath].elements[source.element];
+        const bool along = line.p0 == outline.p0;
+        const auto on_stroke = [&](double t) { return along ? t : 1.0 - t; };
+        const double from = on_stroke(source.from), to = on_stroke(source.to), width = widest(stroke);
+        e.width0 = (line.width0 + (line.width1 - line.width0) * from) / width;
+        e.width1 = (line.width0 + (line.width1 - line.width0) * to) / width;
+        taken_[{place.stroke, place.element}].push_back({std::min(from, to), std::max(from, to)});
+    }
+
+    static double widest(const Stroke& stroke) {
+        double width = 0.0;
+        for (const Element& e : stroke.elements) width = std::max({width, e.width0, e.width1});
+        return width;
+    }
+
+    Result<ProfileList::Section> section_of(const Stroke& stroke) {
+        auto section = profiles_.of_stroke(stroke.meaning, widest(stroke));
+        if (!section) return Error{section.error().code, document_.shapes[stroke.shape].place + ": " + section.error().message};
+        return section;
+    }
+
+    // What is left of a stroke: as a whole where no step took a piece.
+    Status add_stroke(std::size_t index) {
+        Stroke& stroke = strokes_[index];
+        std::vector<std::vector<Element>> runs(1);
+        bool cut = false;
+        for (std::size_t i = 0; i < stroke.elements.size(); ++i) {
+            const auto found = taken_.find({index, i});
+            if (found == taken_.end()) {
+                runs.back().push_back(stroke.elements[i]);
+                continue;
+            }
+            cut = true;
+            std::sort(found->second.begin(), found->second.end(), [](const Taken& a, const Taken& b) { return a.from < b.from; });
+            double at = 0.0;
+            for (const Taken& taken : found->second) {
+                if (taken.from - at > 1e-6) runs.back().push_back(curve::part(stroke.elements[i], at, taken.from));
+                if (!runs.back().empty()) runs.emplace_back();
+                at = std::max(at, taken.to);
+            }
+            if (1.0 - at > 1e-6) runs.back().push_back(curve::part(stroke.elements[i], at, 1.0));
+        }
+        if (runs.back().empty()) runs.pop_back();
+        // A closed line that was cut goes on from its end to its start.
+        if (cut && stroke.closed && runs.size() > 1 && runs.back().back().p2 == runs.front().front().p0) {
+            runs.back().insert(runs.back().end(), runs.front().begin(), runs.front().end());
+            runs.erase(runs.begin());
+        }
+        for (std::vector<Element>& run : runs) {
+            Stroke piece = stroke;
+            piece.elements = std::move(run);
+            piece.closed = stroke.closed && !cut;
+            if (const Status added = add_line(std::move(piece)); !added) return added;
+        }
+        return Done{};
+    }
+
+    Status add_line(Stroke stroke) {
+        add_square_caps(stroke);
+        const double width = widest(stroke);
+        if (!(width > 0.0)) return Done{};
+        const auto section = section_of(stroke);
+        if (!section) return section.error();
+        Path path;
+        path.profile = section->index;
+        path.closed = stroke.closed;
+        path.join = stroke.join;
+        path.start_cap = path.end_cap = stroke.cap;
+        path.elements = std::move(stroke.elements);
+        // With the usual height a narrower part is as much lower.
+        const bool even = stroke.meaning.height > 0.0;
+        double highest = 0.0;
+        for (Element& e : path.elements) {
+            e.width0 /= section->width, e.width1 /= section->width;
+            if (!even) e.height0 = e.width0, e.height1 = e.width1;
+            highest = std::max({highest, e.height0, e.height1});
+        }
+        note_heights(stroke.meaning, section->height * highest);
+        add_path(std::move(path), document_.shapes[stroke.shape].place);
+        return Done{};
+    }
+
+    void note_heights(const Meaning& meaning, double height) {
+        if (meaning.kind == Kind::groove) groove_ = std::min(groove_, height);
+        else ridge_ = std::max(ridge_, height);
+    }
+
+    void add_path(Path path, const std::string& place) {
+        out_.pattern.paths.push_back(std::move(path));
+        out_.sources.push_back(place);
+    }
+
+    // The object surface touches what is highest; overhanging profiles may reach beyond their own height.
+    void bound_heights() {
+        Pattern& pattern = out_.pattern;
+        const double high = std::max(own_high_, level_high_ + ridge_), low = std::min(own_low_, level_low_ + groove_);
+        if (document_.own && high == own_high_ && low == own_low_) return;
+        pattern.base_offset = high;
+        pattern.depth = high - low;
+        // Nothing is drawn: any depth will do.
+        if (!(pattern.depth > 0.0)) pattern.depth = usual_step_;
+    }
+
+    Document document_;
+    const SvgOptions& options_;
+    Meanings meanings_;
+    SvgDrawing out_;
+    ProfileList profiles_;
+    double tolerance_ = 0.0, usual_step_ = 0.0;
+    double own_high_ = 0.0, own_low_ = 0.0, level_low_ = 0.0, level_high_ = 0.0, groove_ = 0.0, ridge_ = 0.0;
+    std::vector<Region> regions_;
+    std::vector<Meaning> region_meanings_;
+    std::vector<std::size_t> region_shapes_;
+    std::vector<Stroke> strokes_;
+    std::map<CurveKey, StrokePlace> stroke_places_;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Taken>> taken_;
+};
+
+}  // namespace
+}  // namespace svg
+
+Result<SvgDrawing> read_svg(std::string_view text, const SvgOptions& options) {
+    const auto meanings = svg::Meanings::read(options);
+    if (!meanings) return meanings.error();
+    svg::DocumentOptions document_options;
+    document_options.width = options.width, document_options.height = options.height;
+    document_options.tolerance = options.tolerance;
+    auto document = svg::read_document(text, document_options);
+    if (!document) return document.error();
+    return svg::Drawing(std::move(*document), options, *meanings).make();
+}
+
+}  // namespace burin
