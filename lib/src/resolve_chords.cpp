@@ -201,17 +201,28 @@ void ChordIndex::visit_rings(Vec2 p, const std::function<double(std::uint32_t, S
             best = visit(entries_[i].chord, {tile.x - entries_[i].tile.x, tile.y - entries_[i].tile.y});
         return best;
     };
+    // In a clamped plane only the part of a ring that lies over the buckets is walked, from the first ring that does.
+    constexpr int kAnywhere = 1 << 30;
+    const int low = repeat_ ? -kAnywhere : 0, high_x = repeat_ ? kAnywhere : cols_, high_y = repeat_ ? kAnywhere : rows_;
+    const int first = repeat_ ? 0 : std::max({0, -centre.x, centre.x - cols_, -centre.y, centre.y - rows_});
     double best = 1e300;
-    for (int ring = 0; ring <= last; ++ring) {
+    for (int ring = first; ring <= last; ++ring) {
         if ((ring - 1) * side > best) return;
-        for (int x = centre.x - ring; x <= centre.x + ring; ++x) {
-            best = visit_bucket(x, centre.y - ring, best);
-            if (ring > 0) best = visit_bucket(x, centre.y + ring, best);
-        }
-        for (int y = centre.y - ring + 1; y < centre.y + ring; ++y) {
-            best = visit_bucket(centre.x - ring, y, best);
-            best = visit_bucket(centre.x + ring, y, best);
-        }
+        const auto visit_row = [&](int y) {
+            if (y < low || y > high_y) return;
+            const int end = std::min(centre.x + ring, high_x);
+            for (int x = std::max(centre.x - ring, low); x <= end; ++x) best = visit_bucket(x, y, best);
+        };
+        const auto visit_column = [&](int x) {
+            if (x < low || x > high_x) return;
+            const int end = std::min(centre.y + ring - 1, high_y);
+            for (int y = std::max(centre.y - ring + 1, low); y <= end; ++y) best = visit_bucket(x, y, best);
+        };
+        visit_row(centre.y - ring);
+        if (ring == 0) continue;
+        visit_row(centre.y + ring);
+        visit_column(centre.x - ring);
+        visit_column(centre.x + ring);
     }
 }
 
