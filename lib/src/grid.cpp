@@ -34,10 +34,14 @@ std::vector<Feature> features_of(const ResolvedPattern& pattern) {
     return features;
 }
 
-double mean_width(const std::vector<Feature>& features) {
+// Where sizes of cells are looked for from: about the mean width; where features are much narrower than the plane between them, as
+// upright walls are, a small share of that.
+double least_scale(const std::vector<Feature>& features, Vec2 size) {
     double area = 0.0, length = 0.0;
     for (const Feature& f : features) area += f.length * f.width, length += f.length;
-    return length > 0.0 ? area / length : 0.0;
+    if (!(length > 0.0)) return 0.0;
+    constexpr double kShare = 1.0 / 32.0;
+    return std::max(area / length, kShare * size.x * size.y / length);
 }
 
 // What a size costs: work of a pixel, in elements of a list looked at, and bytes of the cells and of all.
@@ -124,7 +128,7 @@ Frame frame_of(const ResolvedPattern& pattern, const Limits& limits, double cell
 double cheapest_size(const ResolvedPattern& pattern, const GridOptions& options) {
     const std::vector<Feature> features = features_of(pattern);
     const double largest = std::max(pattern.size.x, pattern.size.y);
-    const double width = mean_width(features);
+    const double width = least_scale(features, pattern.size);
     if (features.empty() || width <= 0.0) return largest;
     const double smallest = largest / BURIN_MAX_TEXTURE_SIDE;
     double best = 0.0, best_cost = 1e300, fallback = largest;
