@@ -20,6 +20,7 @@ SvgOptions svg_options(const Arguments& arguments) {
     if (arguments.given("--wrap")) options.wrap = arguments.text("--wrap") == "repeat" ? Wrap::repeat : Wrap::clamp;
     options.stroke = arguments.text("--stroke");
     options.fill = arguments.text("--fill");
+    options.threads = arguments.integer("--threads");
     return options;
 }
 

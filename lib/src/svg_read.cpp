@@ -234,9 +234,7 @@ class Drawing {
         for (std::size_t s = 0; s < strokes_.size(); ++s)
             if (!strokes_[s].dashed)
                 for (std::size_t e = 0; e < strokes_[s].elements.size(); ++e) stroke_places_.emplace(key_of(strokes_[s].elements[e]), StrokePlace{s, e});
-        const auto runs = trace_steps(regions_, {out_.pattern.size, 0.5 * tolerance_});
-        if (!runs) return runs.error();
-        for (const StepRun& run : *runs)
+        for (const StepRun& run : trace_steps(regions_, {out_.pattern.size, 0.5 * tolerance_, options_.threads}))
             if (const Status added = add_run(run); !added) return added;
         return Done{};
     }
@@ -391,7 +389,11 @@ class Drawing {
         else ridge_ = std::max(ridge_, height);
     }
 
+    // Specks that nobody sees are left out: slivers where outlines nearly coincide.
     void add_path(Path path, const std::string& place) {
+        const double speck = 2e-6 * std::max(out_.pattern.size.x, out_.pattern.size.y);
+        const auto is_short = [&](const Element& e) { return length(e.p2 - e.p0) < speck && length(e.p1 - e.p0) < speck; };
+        if (std::all_of(path.elements.begin(), path.elements.end(), is_short)) return;
         out_.pattern.paths.push_back(std::move(path));
         out_.sources.push_back(place);
     }

@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <unordered_map>
+#include <utility>
 
 #include <polyclipping/clipper.hpp>
 
+#include "parallel.hpp"
+#include "resolve_chords.hpp"
 #include "resolve_curve.hpp"
 
 namespace burin::svg {
@@ -33,9 +39,12 @@ struct Curve {
 
 // A corner of a polygon that lies on a curve, at parameter k / chords.
 struct Sample {
+    IntPoint at;
     std::size_t curve;
     int k;
 };
+
+bool before(const IntPoint& a, const IntPoint& b) { return a.X != b.X ? a.X < b.X : a.Y < b.Y; }
 
 struct Grid {
     Vec2 origin;
@@ -44,47 +53,38 @@ struct Grid {
     Vec2 at(IntPoint p) const { return {origin.x + double(p.X) / scale, origin.y + double(p.Y) / scale}; }
 };
 
-class Tracer {
+// Regions that lie on one another, or on others that do; none outside of them does.
+class Cluster {
   public:
-    Tracer(const std::vector<Region>& regions, const StepOptions& options) : regions_(regions), options_(options) {}
+    Cluster(const std::vector<Region>& regions, std::vector<std::size_t> members, const Grid& grid, double tolerance)
+        : regions_(regions), members_(std::move(members)), grid_(grid), tolerance_(tolerance) {}
 
-    Result<std::vector<StepRun>> trace() {
-        place_grid();
+    std::vector<StepRun> trace() {
         std::vector<Paths> polygons;
-        for (std::size_t i = 0; i < regions_.size(); ++i) polygons.push_back(polygons_of(i));
+        for (const std::size_t region : members_) polygons.push_back(polygons_of(region));
+        std::sort(samples_.begin(), samples_.end(), [](const Sample& p, const Sample& q) {
+            return p.at != q.at ? before(p.at, q.at) : p.curve != q.curve ? p.curve < q.curve : p.k < q.k;
+        });
         paint(polygons);
         if (levels_.size() > 1) share_corners();
+        for (auto& [level, paths] : levels_)
+            for (Path& path : paths) remove_spikes(path);
         make_edges();
         return make_runs();
     }
 
   private:
-    // 2^29 steps across all outlines: within what Clipper computes in 64 bits.
-    void place_grid() {
-        Vec2 low{0.0, 0.0}, high = options_.size;
-        for (const Region& region : regions_)
-            for (const Subpath& subpath : *region.outline)
-                for (const Element& e : subpath.elements) {
-                    const Box box = curve::control_box(e);
-                    low = {std::min(low.x, box.low.x), std::min(low.y, box.low.y)};
-                    high = {std::max(high.x, box.high.x), std::max(high.y, box.high.y)};
-                }
-        grid_.origin = (low + high) * 0.5;
-        grid_.scale = double(1 << 29) / std::max(high.x - low.x, high.y - low.y);
-    }
-
     void add_curve(const Element& element, const StepSource& source, Path& polygon) {
         Curve curve{element, source, 1};
         if (element.kind == ElementKind::quadratic) {
             const double bow = length(element.p0 - element.p1 * 2.0 + element.p2) / 4.0;  // of the chord
-            curve.chords = std::clamp(int(std::ceil(std::sqrt(bow / options_.tolerance))), 2, 1 << 12);
+            curve.chords = std::clamp(int(std::ceil(std::sqrt(bow / tolerance_))), 2, 1 << 12);
         }
         const std::size_t index = curves_.size();
         for (int k = 0; k <= curve.chords; ++k) {
             const Vec2 at = k == 0 ? element.p0 : k == curve.chords ? element.p2 : curve::point(element, double(k) / curve.chords);
             const IntPoint p = grid_.of(at);
-            samples_[p].push_back({index, k});
-            if (k == 0 || k == curve.chords) exact_.emplace(p, at);
+            samples_.push_back({p, index, k});
             if (k < curve.chords) polygon.push_back(p);
         }
         curves_.push_back(curve);
@@ -144,17 +144,19 @@ class Tracer {
         int highest = 0;
         for (std::size_t i = 0; i < polygons.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j)
-                if (regions_[j].level != regions_[i].level && layers[j] >= layers[i] && bounds[i].meets(bounds[j])) layers[i] = layers[j] + 1;
+                if (level_of(j) != level_of(i) && layers[j] >= layers[i] && bounds[i].meets(bounds[j])) layers[i] = layers[j] + 1;
             highest = std::max(highest, layers[i]);
         }
         for (int layer = 0; layer <= highest; ++layer) {
             std::map<double, Paths> painted;
             for (std::size_t i = 0; i < polygons.size(); ++i)
-                if (layers[i] == layer) painted[regions_[i].level].insert(painted[regions_[i].level].end(), polygons[i].begin(), polygons[i].end());
+                if (layers[i] == layer) painted[level_of(i)].insert(painted[level_of(i)].end(), polygons[i].begin(), polygons[i].end());
             for (const auto& [level, paths] : painted) cover(level, united(paths, ClipperLib::pftNonZero));
         }
         std::erase_if(levels_, [](const auto& one) { return one.second.empty(); });
     }
+
+    double level_of(std::size_t member) const { return regions_[members_[member]].level; }
 
     void cover(double level, const Paths& paths) {
         for (auto& [other, there] : levels_)
@@ -208,6 +210,31 @@ class Tracer {
         return on;
     }
 
+    // Corners where a border turns back on itself, by less than anybody sees: what rounding leaves where outlines nearly coincide.
+    void remove_spikes(Path& path) const {
+        const double small = 0.4 * tolerance_ * grid_.scale;
+        Path kept;
+        const auto is_spike = [&](const IntPoint& a, const IntPoint& b, const IntPoint& c) {
+            if (a == b || b == c || a == c) return true;
+            const double ux = double(b.X - a.X), uy = double(b.Y - a.Y), vx = double(c.X - b.X), vy = double(c.Y - b.Y);
+            const double u = std::hypot(ux, uy), v = std::hypot(vx, vy);
+            return std::min(u, v) < small && ux * vx + uy * vy < -0.85 * u * v;
+        };
+        for (const IntPoint& p : path) {
+            while (kept.size() >= 2 && is_spike(kept[kept.size() - 2], kept.back(), p)) kept.pop_back();
+            if (kept.empty() || kept.back() != p) kept.push_back(p);
+        }
+        // Round the seam.
+        std::size_t begin = 0;
+        for (bool changed = true; changed && kept.size() - begin > 2;) {
+            changed = false;
+            if (is_spike(kept[kept.size() - 2], kept.back(), kept[begin])) kept.pop_back(), changed = true;
+            else if (is_spike(kept.back(), kept[begin], kept[begin + 1])) ++begin, changed = true;
+        }
+        path.assign(kept.begin() + std::ptrdiff_t(begin), kept.end());
+        if (path.size() < 3) path.clear();
+    }
+
     struct Edge {
         IntPoint a, b;
         double left = 0.0, right = 0.0;
@@ -247,6 +274,8 @@ class Tracer {
         std::size_t curve = kNone;
         double left = 0.0, right = 0.0;
         std::size_t style = 0;
+        std::vector<IntPoint> corners{};  // of the polygon, between a and b
+        bool straight = false;            // drawn by its chords
         bool goes_on(const Piece& next) const { return left == next.left && right == next.right && style == next.style; }
     };
 
@@ -254,20 +283,19 @@ class Tracer {
     Piece piece_of(const Edge& edge) const {
         Piece piece{edge.a, edge.b, {}, kNone, edge.left, edge.right, 0};
         double from = 0.0, to = 0.0;
-        const auto begin = samples_.find(edge.a), end = samples_.find(edge.b);
+        const auto begin = samples_at(edge.a), end = samples_at(edge.b);
         const auto take = [&](std::size_t curve, double a, double b) { piece.curve = curve, from = a, to = b; };
-        if (begin != samples_.end() && end != samples_.end())
-            for (const Sample& a : begin->second)
-                for (const Sample& b : end->second)
-                    if (piece.curve == kNone && a.curve == b.curve && std::abs(a.k - b.k) == 1) take(a.curve, a.k, b.k);
-        if (begin != samples_.end() && piece.curve == kNone)
-            for (const Sample& a : begin->second)
-                if (const auto share = share_beside(a, edge.b); share && piece.curve == kNone) take(a.curve, a.k, a.k + *share);
-        if (end != samples_.end() && piece.curve == kNone)
-            for (const Sample& b : end->second)
-                if (const auto share = share_beside(b, edge.a); share && piece.curve == kNone) take(b.curve, b.k + *share, b.k);
+        for (const Sample& a : begin)
+            for (const Sample& b : end)
+                if (piece.curve == kNone && a.curve == b.curve && std::abs(a.k - b.k) == 1) take(a.curve, a.k, b.k);
+        for (const Sample& a : begin)
+            if (piece.curve == kNone)
+                if (const auto share = share_beside(a, edge.b)) take(a.curve, a.k, a.k + *share);
+        for (const Sample& b : end)
+            if (piece.curve == kNone)
+                if (const auto share = share_beside(b, edge.a)) take(b.curve, b.k + *share, b.k);
         if (piece.curve == kNone) {
-            piece.style = regions_.empty() ? 0 : style_of_level(edge.right);
+            piece.style = style_of_level(edge.right);
             return piece;
         }
         const Curve& curve = curves_[piece.curve];
@@ -278,8 +306,8 @@ class Tracer {
     }
 
     std::size_t style_of_level(double level) const {
-        for (const Region& region : regions_)
-            if (region.level == level) return region.style;
+        for (const std::size_t member : members_)
+            if (regions_[member].level == level) return regions_[member].style;
         return 0;
     }
 
@@ -300,23 +328,108 @@ class Tracer {
         return std::nullopt;
     }
 
-    Vec2 place(IntPoint p) const {
-        const auto exact = exact_.find(p);
-        return exact != exact_.end() ? exact->second : grid_.at(p);
+    std::span<const Sample> samples_at(IntPoint p) const {
+        const auto begin = std::lower_bound(samples_.begin(), samples_.end(), p, [](const Sample& a, const IntPoint& b) { return before(a.at, b); });
+        auto end = begin;
+        while (end != samples_.end() && end->at == p) ++end;
+        return {begin, end};
     }
 
-    std::vector<StepRun> make_runs() const {
-        std::vector<StepRun> runs;
-        for (const std::vector<Edge>& contour : contours_) {
-            std::vector<Piece> pieces;
+    // Ends of curves are where they were drawn; corners that arose on the way lie on the grid.
+    Vec2 place(IntPoint p) const {
+        for (const Sample& sample : samples_at(p)) {
+            const Curve& curve = curves_[sample.curve];
+            if (sample.k == 0) return curve.element.p0;
+            if (sample.k == curve.chords) return curve.element.p2;
+        }
+        if (const auto found = crossings_.find(p); found != crossings_.end()) return found->second;
+        return grid_.at(p);
+    }
+
+    std::vector<StepRun> make_runs() {
+        std::vector<std::vector<Piece>> pieces(contours_.size());
+        for (std::size_t c = 0; c < contours_.size(); ++c) {
+            for (const Edge& edge : contours_[c]) pieces[c].push_back(piece_of(edge));
+            for (std::size_t i = 0; i < pieces[c].size(); ++i) meet(pieces[c][i], pieces[c][(i + 1) % pieces[c].size()]);
+        }
+        while (undo_turned(pieces)) {}
+        for (std::size_t c = 0; c < contours_.size(); ++c) {
             std::vector<bool> kept;
-            for (const Edge& edge : contour) {
-                pieces.push_back(piece_of(edge));
-                kept.push_back(edge.kept);
-            }
-            add_runs(pieces, kept, runs);
+            for (const Edge& edge : contours_[c]) kept.push_back(edge.kept);
+            add_runs(pieces[c], kept);
+        }
+        std::vector<StepRun> runs;
+        for (int round = 0; round < 8; ++round) {
+            runs.clear();
+            for (const PieceRun& run : runs_) runs.push_back(run_of(run));
+            if (!straighten(runs)) break;
         }
         return runs;
+    }
+
+    // Polygons never cross, but curves that nearly touch may, by less than the tolerance: those are drawn by their chords.
+    // Whether there were any.
+    bool straighten(const std::vector<StepRun>& runs) {
+        std::vector<resolving::Chord> chords;
+        std::vector<std::size_t> first;
+        for (std::size_t r = 0; r < runs.size(); ++r) {
+            first.push_back(chords.size());
+            for (std::size_t i = 0; i < runs[r].elements.size(); ++i) {
+                const Element& e = runs[r].elements[i];
+                const int count = curve::chord_count(e, tolerance_);
+                for (int k = 0; k < count; ++k)
+                    chords.push_back({k == 0 ? e.p0 : curve::point(e, double(k) / count), k + 1 == count ? e.p2 : curve::point(e, double(k + 1) / count),
+                                      0.0, 1.0, std::uint32_t(r), std::uint32_t(i)});
+            }
+        }
+        if (chords.empty()) return false;
+        const Vec2 size{double(1 << 29) / grid_.scale, double(1 << 29) / grid_.scale};
+        const resolving::ChordIndex index(std::move(chords), size, false);
+        const auto crossings = resolving::find_crossings(index, [](const resolving::Chord& a, const resolving::Chord& b, resolving::Shift) {
+            return !(a.b == b.a || b.b == a.a || a.a == b.a || a.b == b.b);
+        });
+        bool changed = false;
+        for (const resolving::ChordCrossing& crossing : crossings)
+            for (const std::uint32_t c : {crossing.first, crossing.second}) {
+                const resolving::Chord& chord = index.chords()[c];
+                Piece& piece = runs_[chord.path].pieces[runs[chord.path].pieces[chord.element]];
+                changed = changed || !piece.straight;
+                piece.straight = true;
+            }
+        return changed;
+    }
+
+    // A crossing that moved so far that a piece beside it would run backwards, or be nothing, stays where the chords have it.
+    bool undo_turned(std::vector<std::vector<Piece>>& pieces) {
+        bool undone = false;
+        for (std::vector<Piece>& contour : pieces)
+            for (Piece& piece : contour) {
+                const bool moved = crossings_.contains(piece.a) || crossings_.contains(piece.b);
+                if (!moved || dot(place(piece.b) - place(piece.a), grid_.at(piece.b) - grid_.at(piece.a)) > 0.0) continue;
+                crossings_.erase(piece.a);
+                crossings_.erase(piece.b);
+                piece.curve = kNone;
+                undone = true;
+            }
+        return undone;
+    }
+
+    // Where chords of two curves cross the curves themselves cross nearby: there they are cut, or they would cross once more.
+    void meet(Piece& one, Piece& next) {
+        if (one.curve == kNone || next.curve == kNone || one.curve == next.curve || !samples_at(one.b).empty()) return;
+        const Element &a = curves_[one.curve].element, &b = curves_[next.curve].element;
+        double s = one.source.to, t = next.source.from;
+        for (int round = 0; round < 8; ++round) {
+            const Vec2 apart = curve::point(b, t) - curve::point(a, s), u = curve::derivative(a, s), v = curve::derivative(b, t);
+            const double det = cross(u, v);
+            if (std::abs(det) < 1e-3 * length(u) * length(v)) return;
+            s += cross(apart, v) / det, t += cross(apart, u) / det;
+            if (!(s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0)) return;
+        }
+        const Vec2 at = curve::point(a, s);
+        if (length(at - grid_.at(one.b)) > 4.0 * tolerance_ || length(at - curve::point(b, t)) > 1e-3 * tolerance_) return;
+        one.source.to = s, next.source.from = t;
+        crossings_.emplace(one.b, at);
     }
 
     // Chords of one curve that follow each other.
@@ -324,7 +437,12 @@ class Tracer {
         return a.curve != kNone && a.curve == b.curve && a.source.to == b.source.from && (a.source.to > a.source.from) == (b.source.to > b.source.from);
     }
 
-    void add_runs(const std::vector<Piece>& pieces, const std::vector<bool>& kept, std::vector<StepRun>& runs) const {
+    struct PieceRun {
+        std::vector<Piece> pieces;
+        bool closed = false;
+    };
+
+    void add_runs(const std::vector<Piece>& pieces, const std::vector<bool>& kept) {
         const std::size_t n = pieces.size();
         if (n < 2) return;
         const auto before = [&](std::size_t i) { return (i + n - 1) % n; };
@@ -337,53 +455,132 @@ class Tracer {
         for (std::size_t i = 0; i < n && start == kNone; ++i)
             if (!same_curve(pieces[before(i)], pieces[i])) start = i;
         if (start == kNone) start = 0;
-        std::vector<Piece> run;
+        PieceRun run;
         for (std::size_t k = 0; k < n; ++k) {
-            const std::size_t i = (start + k) % n;
-            const bool ends = !run.empty() && (!kept[i] || !run.back().goes_on(pieces[i]));
-            if (ends) runs.push_back(run_of(run, false)), run.clear();
-            if (!kept[i]) continue;
-            if (!run.empty() && same_curve(run.back(), pieces[i])) run.back().b = pieces[i].b, run.back().source.to = pieces[i].source.to;
-            else run.push_back(pieces[i]);
+            const Piece& piece = pieces[(start + k) % n];
+            const bool shown = kept[(start + k) % n];
+            if (!run.pieces.empty() && (!shown || !run.pieces.back().goes_on(piece))) runs_.push_back(std::exchange(run, {}));
+            if (!shown) continue;
+            if (!run.pieces.empty() && same_curve(run.pieces.back(), piece)) {
+                Piece& whole = run.pieces.back();
+                whole.corners.push_back(whole.b);
+                whole.b = piece.b, whole.source.to = piece.source.to;
+            } else {
+                run.pieces.push_back(piece);
+            }
         }
-        if (!run.empty()) runs.push_back(run_of(run, closed));
+        run.closed = closed;
+        if (!run.pieces.empty()) runs_.push_back(std::move(run));
     }
 
-    StepRun run_of(const std::vector<Piece>& pieces, bool closed) const {
+    StepRun run_of(const PieceRun& from) const {
         StepRun run;
-        run.closed = closed;
-        run.left = pieces.front().left, run.right = pieces.front().right, run.style = pieces.front().style;
-        for (const Piece& piece : pieces) {
-            Element e;
-            if (piece.curve != kNone) {
-                const Element& whole = curves_[piece.curve].element;
-                const bool turned = piece.source.to < piece.source.from;
-                e = turned ? curve::part(whole, piece.source.to, piece.source.from) : curve::part(whole, piece.source.from, piece.source.to);
-            }
-            e.p0 = place(piece.a), e.p2 = place(piece.b);
+        run.closed = from.closed;
+        run.left = from.pieces.front().left, run.right = from.pieces.front().right, run.style = from.pieces.front().style;
+        const auto add = [&](Element e, std::size_t piece, const StepSource& source) {
             if (e.kind == ElementKind::line) e.p1 = lerp(e.p0, e.p2, 0.5);
             e.width0 = e.width1 = e.height0 = e.height1 = 1.0;
             run.elements.push_back(e);
-            run.sources.push_back(piece.source);
+            run.sources.push_back(source);
+            run.pieces.push_back(piece);
+        };
+        for (std::size_t i = 0; i < from.pieces.size(); ++i) {
+            const Piece& piece = from.pieces[i];
+            Element e;
+            if (piece.curve != kNone && !piece.straight) {
+                const Element& whole = curves_[piece.curve].element;
+                const bool turned = piece.source.to < piece.source.from;
+                e = turned ? curve::part(whole, piece.source.to, piece.source.from) : curve::part(whole, piece.source.from, piece.source.to);
+                e.p0 = place(piece.a), e.p2 = place(piece.b);
+                add(e, i, piece.source);
+                continue;
+            }
+            IntPoint at = piece.a;
+            const StepSource source = curves_.empty() || piece.corners.empty() ? piece.source : StepSource{piece.source.region};
+            for (std::size_t k = 0; k <= piece.corners.size(); ++k) {
+                const IntPoint next = k < piece.corners.size() ? piece.corners[k] : piece.b;
+                e.p0 = place(at), e.p2 = place(next);
+                add(e, i, source);
+                at = next;
+            }
         }
         return run;
     }
 
     const std::vector<Region>& regions_;
-    const StepOptions& options_;
+    std::vector<std::size_t> members_;  // in the order they are painted
     Grid grid_;
+    double tolerance_;
     std::vector<Curve> curves_;
-    std::unordered_map<IntPoint, std::vector<Sample>, PointHash> samples_;
-    std::unordered_map<IntPoint, Vec2, PointHash> exact_;  // places of ends of curves
+    std::vector<Sample> samples_;  // by place
     std::map<double, Paths> levels_;
     std::vector<std::vector<Edge>> contours_;
+    std::vector<PieceRun> runs_;
+    std::unordered_map<IntPoint, Vec2, PointHash> crossings_;  // where curves cross whose chords do at a corner
 };
+
+Box box_of(const Region& region) {
+    Box out;
+    for (const Subpath& subpath : *region.outline)
+        for (const Element& e : subpath.elements) {
+            const Box box = curve::control_box(e);
+            out.low = {std::min(out.low.x, box.low.x), std::min(out.low.y, box.low.y)};
+            out.high = {std::max(out.high.x, box.high.x), std::max(out.high.y, box.high.y)};
+        }
+    return out;
+}
+
+// 2^29 steps across all outlines: within what Clipper computes in 64 bits.
+Grid grid_over(const std::vector<Box>& boxes, Vec2 size) {
+    Vec2 low{0.0, 0.0}, high = size;
+    for (const Box& box : boxes) {
+        low = {std::min(low.x, box.low.x), std::min(low.y, box.low.y)};
+        high = {std::max(high.x, box.high.x), std::max(high.y, box.high.y)};
+    }
+    return {(low + high) * 0.5, double(1 << 29) / std::max(high.x - low.x, high.y - low.y)};
+}
+
+// Members of each cluster, in order: regions whose boxes meet, found from left to right.
+std::vector<std::vector<std::size_t>> clusters_of(const std::vector<Box>& boxes, double margin) {
+    std::vector<std::size_t> leader(boxes.size()), order;
+    std::iota(leader.begin(), leader.end(), std::size_t{0});
+    const auto find = [&](std::size_t i) {
+        while (leader[i] != i) i = leader[i] = leader[leader[i]];
+        return i;
+    };
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (boxes[i].low.x <= boxes[i].high.x) order.push_back(i);
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return boxes[i].low.x < boxes[j].low.x; });
+    std::vector<std::size_t> active;
+    for (const std::size_t i : order) {
+        std::erase_if(active, [&](std::size_t j) { return boxes[j].high.x + margin < boxes[i].low.x; });
+        for (const std::size_t j : active)
+            if (boxes[j].low.y <= boxes[i].high.y + margin && boxes[i].low.y <= boxes[j].high.y + margin) {
+                const std::size_t a = find(i), b = find(j);
+                leader[std::max(a, b)] = std::min(a, b);
+            }
+        active.push_back(i);
+    }
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (boxes[i].low.x <= boxes[i].high.x) members[find(i)].push_back(i);
+    std::vector<std::vector<std::size_t>> out;
+    for (auto& [first, list] : members) out.push_back(std::move(list));
+    return out;
+}
 
 }  // namespace
 
-Result<std::vector<StepRun>> trace_steps(const std::vector<Region>& regions, const StepOptions& options) {
-    if (regions.empty()) return std::vector<StepRun>{};
-    return Tracer(regions, options).trace();
+std::vector<StepRun> trace_steps(const std::vector<Region>& regions, const StepOptions& options) {
+    std::vector<Box> boxes;
+    for (const Region& region : regions) boxes.push_back(box_of(region));
+    const Grid grid = grid_over(boxes, options.size);
+    const auto clusters = clusters_of(boxes, 4.0 / grid.scale);
+    std::vector<std::vector<StepRun>> traced(clusters.size());
+    for_each_piece(clusters.size(), options.threads, [&](std::size_t i) { traced[i] = Cluster(regions, clusters[i], grid, options.tolerance).trace(); });
+    std::vector<StepRun> runs;
+    for (auto& list : traced) runs.insert(runs.end(), std::make_move_iterator(list.begin()), std::make_move_iterator(list.end()));
+    return runs;
 }
 
 }  // namespace burin::svg

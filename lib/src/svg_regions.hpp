@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <burin/path_data.hpp>
-#include <burin/result.hpp>
 
 namespace burin::svg {
 
@@ -34,6 +33,7 @@ struct StepSource {
 struct StepRun {
     std::vector<Element> elements;     // consecutive bit by bit
     std::vector<StepSource> sources;   // of each
+    std::vector<std::size_t> pieces;   // of the tracer's own, that each was made from
     bool closed = false;
     double left = 0.0, right = 0.0;    // ground on either side, left below right
     std::size_t style = 0;
@@ -42,10 +42,11 @@ struct StepRun {
 struct StepOptions {
     Vec2 size;                // of the page, metres
     double tolerance = 0.0;   // farthest that a chord may lie from its curve, metres
+    int threads = 0;          // 0: all cores; the result does not depend on it
 };
 
-// Ensures: runs meet only at their ends. Cost: n log n in chords, times the number of layers of different levels that lie on one
-// another; every two regions of different levels are looked at once.
-Result<std::vector<StepRun>> trace_steps(const std::vector<Region>& regions, const StepOptions& options);
+// Ensures: runs meet only at their ends. Cost: about n log n in chords where few regions lie on one another; among those that do,
+// every two of different levels are looked at once.
+std::vector<StepRun> trace_steps(const std::vector<Region>& regions, const StepOptions& options);
 
 }  // namespace burin::svg

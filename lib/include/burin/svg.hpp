@@ -45,6 +45,7 @@ struct SvgOptions {
     std::string stroke = "groove", fill = "sunken";
     // Name of a layer, class, id or colour, and what strokes and fills with it mean.
     std::vector<std::pair<std::string, std::string>> rules;
+    int threads = 0;  // 0: all cores; the result does not depend on it
 };
 
 struct SvgDrawing {
