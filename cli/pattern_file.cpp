@@ -39,6 +39,23 @@ Result<std::vector<std::pair<std::string, std::string>>> rules_of(const std::str
     return rules;
 }
 
+Result<SvgText> text_of(const Arguments& arguments) {
+    SvgText text;
+    for (const char* option : {"--font", "--text-path", "--text-size", "--text-width"})
+        if (arguments.given(option) && !arguments.given("--text"))
+            return Error{ErrorCode::invalid_argument, std::string(option) + " says how --text is engraved, which is not given"};
+    if (!arguments.given("--text")) return text;
+    if (!arguments.given("--font")) return Error{ErrorCode::invalid_argument, "--text needs --font, an SVG font of single strokes"};
+    const auto font = read_file(arguments.text("--font"), kMaxSvgBytes);
+    if (!font) return font.error();
+    text.words = arguments.text("--text");
+    text.font.assign(font->begin(), font->end());
+    text.path = arguments.text("--text-path");
+    if (arguments.given("--text-size")) text.size = arguments.number("--text-size");
+    if (arguments.given("--text-width")) text.width = arguments.number("--text-width");
+    return text;
+}
+
 }  // namespace
 
 Result<PatternFile> read_pattern_file(const std::string& path, const Arguments& arguments) {
@@ -51,6 +68,9 @@ Result<PatternFile> read_pattern_file(const std::string& path, const Arguments& 
     auto rules = rules_of(arguments.text("--meaning"));
     if (!rules) return rules.error();
     options.rules = std::move(*rules);
+    auto words = text_of(arguments);
+    if (!words) return words.error();
+    options.text = std::move(*words);
     auto drawing = read_svg(text, options);
     if (!drawing) return Error{drawing.error().code, path + ": " + drawing.error().message};
     return PatternFile{std::move(drawing->pattern), std::move(drawing->sources), std::move(drawing->notes)};

@@ -115,8 +115,11 @@ const Meaning* Meanings::rule(const std::string& name, bool fill) const {
 const Meaning* Meanings::named(const std::string& name, bool fill) {
     if (name.empty()) return nullptr;
     const auto [it, fresh] = named_.try_emplace(name);
-    if (fresh)
-        if (const auto meaning = parse_meaning(name)) it->second = *meaning;
+    if (fresh) {
+        const auto meaning = parse_meaning(name);
+        if (meaning) it->second = *meaning;
+        else if (const auto words = words_of(name); words.size() > 1 && parse_meaning(words[0])) misread_.push_back(meaning.error().message);
+    }
     return it->second && (fill ? it->second->of_fill() : it->second->of_stroke()) ? &*it->second : nullptr;
 }
 

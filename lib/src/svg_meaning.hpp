@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <burin/profiles.hpp>
 #include <burin/result.hpp>
@@ -43,12 +44,16 @@ class Meanings {
     // Whether a rule, attribute or name says what fills of this shape mean.
     bool said(const Shape& shape, bool fill, const std::string& color);
 
+    // Names that begin as a meaning does but are none, and what is wrong with each.
+    const std::vector<std::string>& misread() const { return misread_; }
+
   private:
     Result<std::optional<Meaning>> find(const Shape& shape, bool fill, const std::string& color);
     const Meaning* rule(const std::string& name, bool fill) const;
     const Meaning* named(const std::string& name, bool fill);
     std::map<std::string, Meaning> rules_;
     std::map<std::string, std::optional<Meaning>> named_;  // of names that were asked for
+    std::vector<std::string> misread_;
     Meaning stroke_, fill_;
 };
 

@@ -1,5 +1,7 @@
 // read_svg: shapes of a drawing to strokes and regions, these to paths.
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -12,10 +14,16 @@
 #include "svg_own.hpp"
 #include "svg_regions.hpp"
 #include "svg_strokes.hpp"
+#include "svg_text.hpp"
 
 namespace burin {
 namespace svg {
 namespace {
+
+std::string exact_text(double value) {
+    std::array<char, 32> text;
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
 
 bool is_paint(const std::string& paint) { return !paint.empty() && paint != "none" && paint != "transparent"; }
 
@@ -122,6 +130,7 @@ class Drawing {
         for (std::size_t i = 0; i < strokes_.size(); ++i)
             if (const Status added = add_stroke(i); !added) return added.error();
         bound_heights();
+        for (const std::string& one : meanings_.misread()) document_.notes.add(one, "layer or class");
         out_.notes = document_.notes.list();
         return std::move(out_);
     }
@@ -424,6 +433,24 @@ class Drawing {
     std::map<std::pair<std::size_t, std::size_t>, std::vector<Taken>> taken_;
 };
 
+// As one more shape of the drawing, on top of the others.
+Status add_text(const SvgOptions& options, const std::vector<Subpath>& guide, Document& document) {
+    const double side = std::max(document.size.x, document.size.y);
+    auto lines = lay_text(options.text, guide, document.size, options.tolerance > 0.0 ? options.tolerance : 5e-5 * side);
+    if (!lines) return lines.error();
+    const double size = options.text.size > 0.0 ? options.text.size : 0.1 * std::min(document.size.x, document.size.y);
+    Shape shape;
+    shape.place = "text '" + options.text.words + "'";
+    shape.names = std::make_shared<Names>();
+    shape.outline = std::move(*lines);
+    shape.fillable = false;
+    shape.style[Property::stroke] = "#000000";
+    shape.style[Property::stroke_linecap] = shape.style[Property::stroke_linejoin] = "round";
+    shape.style[Property::stroke_width] = exact_text(options.text.width > 0.0 ? options.text.width : size / 12.0);
+    document.shapes.push_back(std::move(shape));
+    return Done{};
+}
+
 }  // namespace
 }  // namespace svg
 
@@ -433,8 +460,12 @@ Result<SvgDrawing> read_svg(std::string_view text, const SvgOptions& options) {
     svg::DocumentOptions document_options;
     document_options.width = options.width, document_options.height = options.height;
     document_options.tolerance = options.tolerance;
-    auto document = svg::read_document(text, document_options);
+    document_options.text_path = options.text.path;
+    std::vector<Subpath> guide;
+    auto document = svg::read_document(text, document_options, &guide);
     if (!document) return document.error();
+    if (!options.text.words.empty())
+        if (const Status added = svg::add_text(options, guide, *document); !added) return added.error();
     return svg::Drawing(std::move(*document), options, *meanings).make();
 }
 

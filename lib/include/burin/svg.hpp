@@ -30,6 +30,15 @@ std::string write_svg(const Pattern& pattern);
 
 inline constexpr std::size_t kMaxSvgBytes = std::size_t{256} << 20;  // that are read
 
+// A line of text in a single-stroke font, engraved like any stroke.
+struct SvgText {
+    std::string words;     // UTF-8; "": none
+    std::string font;      // text of an SVG file with a <font>
+    std::string path;      // id of the path that it runs along, which is then not drawn; "": across the middle of the page
+    double size = 0.0;     // of an em, metres; 0: a tenth of the page's shorter side
+    double width = 0.0;    // of the stroke, metres; 0: a twelfth of the size
+};
+
 struct SvgOptions {
     // Of the page, metres; one side follows from the other. Without both, the size that the drawing itself states.
     std::optional<double> width, height;
@@ -45,6 +54,7 @@ struct SvgOptions {
     std::string stroke = "groove", fill = "sunken";
     // Name of a layer, class, id or colour, and what strokes and fills with it mean.
     std::vector<std::pair<std::string, std::string>> rules;
+    SvgText text;
     int threads = 0;  // 0: all cores; the result does not depend on it
 };
 
