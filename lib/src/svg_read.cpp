@@ -162,15 +162,36 @@ class Drawing {
         return other;
     }
 
+    // burin's own paths in the order of their numbers, whatever layers they lie in, so that an untouched drawing gives the same pattern.
+    Status read_own() {
+        std::vector<std::pair<std::size_t, const Shape*>> own;
+        for (const Shape& shape : document_.shapes)
+            if (is_own(document_, shape)) own.emplace_back(number_of(shape.names->id), &shape);
+        std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (const auto& [number, shape] : own) {
+            if (const Status added = add_own_paths(*shape, out_.pattern, document_.notes); !added) return added;
+            out_.sources.resize(out_.pattern.paths.size(), shape->place);
+        }
+        return Done{};
+    }
+
+    // N of path-N; behind all of these for other names.
+    static std::size_t number_of(const std::string& id) {
+        constexpr std::string_view kPrefix = "path-";
+        std::size_t number = kNone;
+        if (id.starts_with(kPrefix)) {
+            const auto [end, error] = std::from_chars(id.data() + kPrefix.size(), id.data() + id.size(), number);
+            if (error != std::errc{} || end != id.data() + id.size()) number = kNone;
+        }
+        return number;
+    }
+
     Status read_shapes() {
         const bool paper = white_is_ground();
+        if (const Status own = read_own(); !own) return own;
         for (std::size_t i = 0; i < document_.shapes.size(); ++i) {
             const Shape& shape = document_.shapes[i];
-            if (is_own(document_, shape)) {
-                if (const Status added = add_own_paths(shape, out_.pattern, document_.notes); !added) return added;
-                out_.sources.resize(out_.pattern.paths.size(), shape.place);
-                continue;
-            }
+            if (is_own(document_, shape)) continue;
             if (document_.own && shape.names->data.contains("points")) continue;  // a profile that was made visible
             if (const Status filled = read_fill(i, paper); !filled) return filled;
             if (const Status stroked = read_stroke(i); !stroked) return stroked;
