@@ -143,7 +143,7 @@ void PathPen::append(const Element& element) {
 void PathPen::move_to(Vec2 p) {
     here_ = start_ = p;
     open_ = true;
-    subpaths_.push_back({{}, false, transform_(p)});
+    subpaths_.push_back({{}, false, false, transform_(p)});
 }
 
 void PathPen::line_to(Vec2 p) {
@@ -210,7 +210,7 @@ void PathPen::close() {
     // Relative coordinates come back to the start but for rounding.
     const bool back = !subpath.elements.empty() && length(here - start) < 0.01 * tolerance_;
     if (back) subpath.elements.back().p2 = start;
-    else if (!(here == start)) append(line_between(here, start));
+    else if (!(here == start)) append(line_between(here, start)), subpath.closing_line = true;
     subpath.closed = !subpath.elements.empty();
     here_ = start_;
     open_ = false;

@@ -272,6 +272,8 @@ class Reader {
         if (found == ids_.end()) return refuse(place_of(node) + ": there is no element with the id '" + std::string(href.substr(1)) + "'");
         const double x = length_of(node, "x", state.viewport.width, 0.0), y = length_of(node, "y", state.viewport.height, 0.0);
         if (out_.own && shows_wrap(node, href, x, y)) return Done{};
+        if (++uses_ > kMaxSvgUses)
+            return Error{ErrorCode::limit_exceeded, place_of(node) + ": more than " + std::to_string(kMaxSvgUses) + " uses, with those within others"};
         state.to_pattern = state.to_pattern * Affine{1, 0, 0, 1, x, y};
         const pugi::xml_node target = found->second;
         if (local_name(target.name()) != "symbol") return walk(target, state);
@@ -327,7 +329,7 @@ class Reader {
                 for (const Vec2 p : {e.p0, e.p1, e.p2})
                     if (!(std::abs(p.x) < 1e9 && std::abs(p.y) < 1e9)) return refuse(place_of(node) + ": a point lies at " + std::to_string(p.x) + ", " + std::to_string(p.y) + " m, far from any page");
         if (out_.shapes.size() >= kMaxSvgShapes)
-            return Error{ErrorCode::limit_exceeded, place_of(node) + ": more than " + std::to_string(kMaxSvgShapes) + " shapes, with every use counted"};
+            return Error{ErrorCode::limit_exceeded, place_of(node) + ": more than " + std::to_string(kMaxSvgShapes) + " shapes"};
         shape.place = place_of(node);
         shape.names = state.names;
         shape.style = state.style;
@@ -394,6 +396,7 @@ class Reader {
     const DocumentOptions& options_;
     std::vector<Subpath>* guide_;
     bool guided_ = false;
+    std::size_t uses_ = 0;
     pugi::xml_document xml_;
     StyleSheet sheet_;
     std::unordered_map<std::string, pugi::xml_node> ids_;

@@ -72,7 +72,8 @@ struct DocumentOptions {
     std::string text_path;                // id of a path that guides text and is not drawn itself
 };
 
-inline constexpr std::size_t kMaxSvgShapes = std::size_t{1} << 22;  // with all uses expanded
+inline constexpr std::size_t kMaxSvgShapes = std::size_t{1} << 22;
+inline constexpr std::size_t kMaxSvgUses = std::size_t{1} << 18;  // with those within others
 inline constexpr int kMaxSvgDepth = 256;
 
 // A length in user units. Fails with nothing: no number, unknown unit. `percent_of`: what 100 % are.

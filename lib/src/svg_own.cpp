@@ -192,7 +192,7 @@ Status add_own_paths(const Shape& shape, Pattern& pattern, Notes& notes) {
     const std::vector<double> widths = attributes.numbers("widths"), heights = attributes.numbers("heights");
     if (widths.size() % 2 != 0) attributes.fail("widths", "is no list of pairs");
     if (heights.size() % 2 != 0) attributes.fail("heights", "is no list of pairs");
-    const bool wraps = attributes.text("closed", "no") == "yes";
+    const bool closed = attributes.text("closed", "no") == "yes";
     if (!attributes.status()) return attributes.status();
     const Affine& moved = shape.to_pattern;
     const double scale = moved.identity() ? 1.0 : scale_of(moved);
@@ -200,7 +200,8 @@ Status add_own_paths(const Shape& shape, Pattern& pattern, Notes& notes) {
         if (subpath.elements.empty()) continue;
         Path path = base;
         path.elements = subpath.elements;
-        path.closed = subpath.closed || wraps;
+        // An open path that comes back to its start is written with Z too; a line by Z is the user's.
+        path.closed = subpath.closing_line || closed;
         set_scales(path.elements, widths, &Element::width0, &Element::width1);
         set_scales(path.elements, heights, &Element::height0, &Element::height1);
         const auto differs = [&](const std::vector<double>& pairs) { return !pairs.empty() && pairs.size() != 2 * path.elements.size(); };

@@ -113,6 +113,7 @@ class Cluster {
     static Paths united(const Paths& paths, ClipperLib::PolyFillType rule) { return combined(paths, {}, ClipperLib::ctUnion, rule); }
     static Paths combined(const Paths& subject, const Paths& clip, ClipperLib::ClipType type, ClipperLib::PolyFillType rule) {
         ClipperLib::Clipper clipper;
+        clipper.StrictlySimple(true);     // borders that meet at a corner do not cross there
         clipper.PreserveCollinear(true);  // chords of a curve that happen to be in line are still corners of it
         clipper.AddPaths(subject, ClipperLib::ptSubject, true);
         clipper.AddPaths(clip, ClipperLib::ptClip, true);

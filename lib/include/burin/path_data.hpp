@@ -33,6 +33,7 @@ Affine operator*(const Affine& outer, const Affine& inner);
 struct Subpath {
     std::vector<Element> elements;
     bool closed = false;
+    bool closing_line = false;  // Z added a line
     // Of a subpath without elements, which shows as a dot where its line has round or square caps.
     Vec2 start;
 };
