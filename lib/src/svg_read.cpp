@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include <burin/resolve.hpp>
 #include <burin/svg.hpp>
 
 #include "resolve_curve.hpp"
@@ -277,52 +278,77 @@ class Drawing {
         return found == stroke_places_.end() ? nullptr : &found->second;
     }
 
-    // Splits the run where strokes begin or end to lie on it.
+    // Splits the run where strokes begin or end to lie on it; but into no piece so short that it would count as a dot
+    // (ResolveOptions::snap) and leave its neighbours without an end.
     Status add_run(const StepRun& run) {
         const std::size_t n = run.elements.size();
         std::vector<const StrokePlace*> on;
         for (const StepSource& source : run.sources) on.push_back(stroke_on(source));
-        const auto same = [&](std::size_t i, std::size_t j) { return (on[i] == nullptr) == (on[j] == nullptr) && (!on[i] || on[i]->stroke == on[j]->stroke); };
+        std::vector<std::size_t> label(n);
+        for (std::size_t i = 0; i < n; ++i) label[i] = on[i] == nullptr ? kNone : on[i]->stroke;
+        absorb_short(run, label);
         std::size_t start = 0;
-        bool uniform = true;
-        for (std::size_t i = 1; i < n; ++i) uniform = uniform && same(i - 1, i);
-        if (run.closed && !uniform)
+        if (run.closed)
             for (std::size_t i = 0; i < n; ++i)
-                if (!same((i + n - 1) % n, i)) start = i;
+                if (label[(i + n - 1) % n] != label[i]) start = i;
         for (std::size_t k = 0; k < n;) {
             std::size_t count = 1;
-            while (k + count < n && same((start + k) % n, (start + k + count) % n)) ++count;
-            if (const Status added = add_step_path(run, start + k, count, on, run.closed && count == n); !added) return added;
+            while (k + count < n && label[(start + k) % n] == label[(start + k + count) % n]) ++count;
+            const Span span{start + k, count, label[(start + k) % n], run.closed && count == n};
+            if (const Status added = add_step_path(run, span, on); !added) return added;
             k += count;
         }
         return Done{};
     }
 
-    Status add_step_path(const StepRun& run, std::size_t begin, std::size_t count, const std::vector<const StrokePlace*>& on, bool closed) {
+    // Stretches of one label that are too short take the label before them.
+    void absorb_short(const StepRun& run, std::vector<std::size_t>& label) const {
+        const double least = 4.0 * ResolveOptions{}.snap * std::max(out_.pattern.size.x, out_.pattern.size.y);
+        const std::size_t n = label.size();
+        for (std::size_t begin = 0; begin < n;) {
+            std::size_t end = begin;
+            double length_of = 0.0;
+            while (end < n && label[end] == label[begin]) length_of += length(run.elements[end].p2 - run.elements[end].p0), ++end;
+            const bool all = begin == 0 && end == n;
+            if (!all && length_of < least) {
+                const std::size_t other = begin > 0 ? label[begin - 1] : label[end % n];
+                for (std::size_t i = begin; i < end; ++i) label[i] = other;
+            }
+            begin = end;
+        }
+    }
+
+    // Elements of a run that make one path: how many from which on, and the stroke that lies on them.
+    struct Span {
+        std::size_t begin = 0, count = 0, stroke = kNone;
+        bool closed = false;
+    };
+
+    Status add_step_path(const StepRun& run, const Span& span, const std::vector<const StrokePlace*>& on) {
         const std::size_t n = run.elements.size();
         Path path;
-        path.closed = closed;
+        path.closed = span.closed;
         path.level = run.left;
         const double rise = run.right - run.left;
-        const StrokePlace* stroke = on[begin % n];
-        if (stroke == nullptr) {
+        if (span.stroke == kNone) {
             const auto profile = profiles_.of_step(region_meanings_[run.style], rise);
             if (!profile) return profile.error();
             path.profile = *profile;
         } else {
-            const auto section = section_of(strokes_[stroke->stroke]);
+            const Stroke& stroke = strokes_[span.stroke];
+            const auto section = section_of(stroke);
             if (!section) return section.error();
             path.profile = profiles_.of_stroked_step(section->index, rise);
-            path.join = strokes_[stroke->stroke].join;
-            note_heights(strokes_[stroke->stroke].meaning, section->height);
+            path.join = stroke.join;
+            note_heights(stroke.meaning, section->height);
         }
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t i = (begin + k) % n;
+        for (std::size_t k = 0; k < span.count; ++k) {
+            const std::size_t i = (span.begin + k) % n;
             Element e = run.elements[i];
-            if (on[i] != nullptr) take_over(*on[i], run.sources[i], e);
+            if (on[i] != nullptr && on[i]->stroke == span.stroke) take_over(*on[i], run.sources[i], e);
             path.elements.push_back(e);
         }
-        const std::size_t region = run.sources[begin % n].region;
+        const std::size_t region = run.sources[span.begin % n].region;
         add_path(std::move(path), region == kNone ? "" : document_.shapes[region_shapes_[region]].place);
         level_low_ = std::min({level_low_, run.left, run.right}), level_high_ = std::max({level_high_, run.left, run.right});
         return Done{};
