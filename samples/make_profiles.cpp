@@ -2,6 +2,7 @@
 //
 //     make_profiles FOLDER      writes profiles_NAME.glb for each: a groove, a ridge and a step that carry it
 //     make_profiles --list      prints the list of profiles and parameters as Markdown
+#include <cctype>
 #include <cstdio>
 #include <string>
 
@@ -45,11 +46,12 @@ Status write_asset(const std::string& folder, const ProfileEntry& entry) {
 }
 
 void list_entry(const ProfileEntry& entry) {
-    std::printf("## %s\n\n%s.\n\n![%s](../samples/pictures/profiles_%s.png)\n\n", entry.name, entry.help, entry.name, entry.name);
+    std::printf("## %s\n\n%c%s.\n\n![%s](../samples/pictures/profiles_%s.png)\n\n", entry.name, std::toupper(entry.help[0]), entry.help + 1,
+                entry.name, entry.name);
     if (entry.parameters.empty()) return;
     std::printf("| parameter | usual | range | |\n|---|--:|---|---|\n");
-    for (const ProfileParameter& p : entry.parameters)
-        std::printf("| `%s` | %g | %g to %g%s | %s |\n", p.name, p.usual, p.low, p.high, p.whole ? ", whole" : "", p.help);
+    for (const Parameter& p : entry.parameters)
+        std::printf("| `%s` | %s | %s | %s |\n", p.name, parameter_text(p.usual).c_str(), range_text(p).c_str(), p.help);
     std::printf("\n");
 }
 

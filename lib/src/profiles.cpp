@@ -1,11 +1,11 @@
 #include <burin/profiles.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "profiles_curve.hpp"
 #include "steady_math.hpp"
+#include "text.hpp"
 
 namespace burin {
 namespace {
@@ -13,25 +13,10 @@ namespace {
 using profiling::Curve;
 using profiling::few_points;
 
-// Parameters by name, those that were not given at their usual values.
-using Values = std::map<std::string, double>;
+using Values = ParameterValues;
 using Flank = std::vector<Vec2>;
 
 Error refuse(const std::string& what) { return {ErrorCode::invalid_argument, "profile " + what}; }
-
-std::string quoted(std::string_view text) { return std::string("'").append(text).append("'"); }
-
-// Digits enough to read, without the zeros of std::to_string.
-std::string number_text(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 8).ptr};
-}
-
-std::string listed(const std::vector<std::string>& names) {
-    std::string all;
-    for (const std::string& name : names) all.append(all.empty() ? "" : ", ").append(name);
-    return all;
-}
 
 // Part of a circle that begins level and bends up by `degrees`, stretched over the unit square.
 Curve cove_curve(double degrees) {
@@ -97,7 +82,7 @@ struct Entry : ProfileEntry {
 
 constexpr const char* kFloorHelp = "width of the floor or top, as a share of the whole";
 constexpr const char* kPointsHelp = "points of the curve, both ends included; more are rounder and slower to draw";
-constexpr const char* kArcHelp = "how far each round part bends, degrees";
+constexpr const char* kArcHelp = "how far each round part bends";
 
 const std::vector<Entry>& entries() {
     static const std::vector<Entry> table = {
@@ -105,21 +90,21 @@ const std::vector<Entry>& entries() {
         {{"u", "upright walls that round into the floor",
           {{"wall", 0.4, 0.0, 0.9, "height of the upright wall, as a share of the whole"},
            {"floor", 0.0, 0.0, 0.9, kFloorHelp},
-           {"points", 3, 2, 8, kPointsHelp, true}}}, u},
+           {"points", 3, 2, 8, kPointsHelp, "", true}}}, u},
         {{"flat", "straight flanks with a floor between them",
           {{"floor", 0.5, 0.0, 1.0, kFloorHelp},
-           {"slope", 0.0, 0.0, 90.0, "of the flanks, degrees, 90 upright; it decides the floor, or 0 leaves that to floor"}}}, straight},
+           {"slope", 0.0, 0.0, 90.0, "of the flanks, 90 upright; it decides the floor, or 0 leaves that to floor", "deg"}}}, straight},
         {{"bead", "a flank that bulges: half round as a ridge",
-          {{"arc", 90.0, 10.0, 90.0, kArcHelp}, {"floor", 0.0, 0.0, 0.9, kFloorHelp}, {"points", 4, 2, 8, kPointsHelp, true}}}, bead},
+          {{"arc", 90.0, 10.0, 90.0, kArcHelp, "deg"}, {"floor", 0.0, 0.0, 0.9, kFloorHelp}, {"points", 4, 2, 8, kPointsHelp, "", true}}}, bead},
         {{"cove", "a hollow flank: it leaves the ground level and ends steep",
-          {{"arc", 90.0, 10.0, 90.0, kArcHelp}, {"floor", 0.2, 0.0, 0.9, kFloorHelp}, {"points", 4, 2, 8, kPointsHelp, true}}}, cove},
+          {{"arc", 90.0, 10.0, 90.0, kArcHelp, "deg"}, {"floor", 0.2, 0.0, 0.9, kFloorHelp}, {"points", 4, 2, 8, kPointsHelp, "", true}}}, cove},
         {{"ogee", "a flank like an S: a hollow, then a bulge",
-          {{"arc", 60.0, 10.0, 90.0, kArcHelp},
+          {{"arc", 60.0, 10.0, 90.0, kArcHelp, "deg"},
            {"middle", 0.5, 0.2, 0.8, "where hollow and bulge meet, as a share of the flank"},
            {"floor", 0.2, 0.0, 0.9, kFloorHelp},
-           {"points", 5, 3, 12, kPointsHelp, true}}}, ogee},
+           {"points", 5, 3, 12, kPointsHelp, "", true}}}, ogee},
         {{"stair", "a stair",
-          {{"steps", 3, 2, 7, "how many", true},
+          {{"steps", 3, 2, 7, "how many", "", true},
            {"lean", 0.0, 0.0, 0.9, "share of the flank's width that its risers take; 0 upright"},
            {"floor", 0.3, 0.05, 0.9, kFloorHelp}}}, stair},
         {{"overhang", "wider at the bottom or top than at the ground, so that it undercuts",
@@ -133,45 +118,17 @@ const std::vector<Entry>& entries() {
     return table;
 }
 
-template <typename List>
-auto find_named(const List& list, std::string_view name) {
-    return std::find_if(list.begin(), list.end(), [&](const auto& item) { return name == item.name; });
-}
-
 Result<const Entry*> find_entry(const std::string& name) {
-    const auto found = find_named(entries(), name);
-    if (found != entries().end()) return &*found;
-    std::vector<std::string> names;
-    for (const Entry& entry : entries()) names.push_back(entry.name);
-    return refuse(quoted(name).append(" is not known; one of ").append(listed(names)).append(" works"));
-}
-
-Error unknown_parameter(const Entry& entry, const std::string& name) {
-    std::vector<std::string> names;
-    for (const ProfileParameter& parameter : entry.parameters) names.push_back(parameter.name);
-    const std::string works = names.empty() ? "it has none" : listed(names).append(" work");
-    return refuse(std::string(entry.name).append(" has no parameter ").append(quoted(name)).append("; ").append(works));
-}
-
-Status check_value(const Entry& entry, const ProfileParameter& parameter, double value) {
-    const bool inside = value >= parameter.low && value <= parameter.high;
-    if (inside && (!parameter.whole || value == std::floor(value))) return Done{};
-    std::string message = std::string(entry.name).append(": ").append(parameter.name).append(" ").append(number_text(value));
-    message.append(inside ? " is not a whole number; " : " is out of its range; ");
-    return refuse(message.append(number_text(parameter.low)).append(" to ").append(number_text(parameter.high)).append(" works"));
-}
-
-// All parameters of the entry, checked.
-Result<Values> values_of(const Entry& entry, const ProfileSpec& spec) {
-    Values values;
-    for (const ProfileParameter& parameter : entry.parameters) values[parameter.name] = parameter.usual;
-    for (const auto& [name, value] : spec.parameters) {
-        const auto parameter = find_named(entry.parameters, name);
-        if (parameter == entry.parameters.end()) return unknown_parameter(entry, name);
-        if (const Status status = check_value(entry, *parameter, value); !status) return status.error();
-        values[name] = value;
+    std::string names;
+    for (const Entry& entry : entries()) {
+        if (name == entry.name) return &entry;
+        names.append(names.empty() ? "" : ", ").append(entry.name);
     }
-    return values;
+    return refuse(std::string("'").append(name).append("' is not known; one of ").append(names).append(" works"));
+}
+
+Result<Values> values_of(const Entry& entry, const ProfileSpec& spec) {
+    return complete_parameters("profile " + spec.name, entry.parameters, spec.parameters);
 }
 
 struct Shape {
@@ -186,8 +143,8 @@ Result<Shape> shape_of(const ProfileSpec& spec, double width, double height) {
     if (!entry) return entry.error();
     const auto values = values_of(**entry, spec);
     if (!values) return values.error();
-    if (!std::isfinite(width) || width < 0.0) return refuse(spec.name + ": width " + number_text(width) + " is not 0 or above");
-    if (!std::isfinite(height) || height == 0.0) return refuse(spec.name + ": height " + number_text(height) + " is not a height");
+    if (!std::isfinite(width) || width < 0.0) return refuse(spec.name + ": width " + parameter_text(width) + " is not 0 or above");
+    if (!std::isfinite(height) || height == 0.0) return refuse(spec.name + ": height " + parameter_text(height) + " is not a height");
     const auto value = [&](const char* name) { return values->count(name) ? values->at(name) : 0.0; };
     Shape shape{(*entry)->flank(*values), value("floor"), value("slope"), false};
     for (const Vec2 p : shape.flank) shape.overhangs = shape.overhangs || p.x < 0.0;
@@ -214,23 +171,6 @@ void flag_undercut(Profile& profile, const Shape& shape, double height) {
     if (shape.overhangs && height < 0.0) profile.facets.assign(profile.points.size() - 1, FacetClass::internal);
 }
 
-ProfileSpec trimmed_spec(std::string_view name) {
-    const std::size_t first = name.find_first_not_of(" \t"), last = name.find_last_not_of(" \t");
-    return {first == std::string_view::npos ? "" : std::string(name.substr(first, last - first + 1)), {}};
-}
-
-Status read_parameter(std::string_view text, ProfileSpec& spec) {
-    const std::size_t equals = text.find('=');
-    const std::string name = trimmed_spec(text.substr(0, equals)).name;
-    const std::string value = equals == std::string_view::npos ? "" : trimmed_spec(text.substr(equals + 1)).name;
-    double number = 0.0;
-    const auto [rest, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (error != std::errc() || rest != value.data() + value.size() || !std::isfinite(number))
-        return refuse(spec.name + ": " + quoted(text) + " is not parameter=number, such as floor=0.4");
-    if (!spec.parameters.emplace(name, number).second) return refuse(spec.name + ": " + name + " is given twice; once works");
-    return Done{};
-}
-
 }  // namespace
 
 const std::vector<ProfileEntry>& profile_table() {
@@ -239,19 +179,17 @@ const std::vector<ProfileEntry>& profile_table() {
 }
 
 Result<ProfileSpec> parse_profile(std::string_view text) {
+    text = trimmed(text);
     const std::size_t open = text.find('(');
-    ProfileSpec spec = trimmed_spec(text.substr(0, open));
+    ProfileSpec spec{std::string(trimmed(text.substr(0, open))), {}};
     const auto entry = find_entry(spec.name);
     if (!entry) return entry.error();
     if (open != std::string_view::npos) {
-        const std::size_t close = text.find_last_not_of(" \t");
-        if (text[close] != ')') return refuse(quoted(text).append(" does not end in ')'; NAME(parameter=number, ...) works"));
-        std::string_view inside = text.substr(open + 1, close - open - 1);
-        while (!inside.empty()) {
-            const std::size_t comma = inside.find(',');
-            if (const Status read = read_parameter(inside.substr(0, comma), spec); !read) return read.error();
-            inside = comma == std::string_view::npos ? std::string_view() : inside.substr(comma + 1);
-        }
+        if (text.back() != ')')
+            return refuse(spec.name + ": '" + std::string(text).append("' does not end in ')'; NAME(parameter=number, ...) works"));
+        auto parameters = parse_parameters("profile " + spec.name, text.substr(open + 1, text.size() - open - 2));
+        if (!parameters) return parameters.error();
+        spec.parameters = std::move(*parameters);
     }
     const auto values = values_of(**entry, spec);
     return values ? Result<ProfileSpec>(std::move(spec)) : values.error();
@@ -264,8 +202,8 @@ Result<Profile> make_profile(const ProfileSpec& spec, double width, double heigh
     double flank = 0.5 * width * (1.0 - shape->floor);
     if (shape->slope > 0.0) flank = width_at_slope(shape->slope, height);
     if (flank > 0.5 * width)
-        return refuse(spec.name + ": a slope of " + number_text(shape->slope) + " degrees needs a width of " + number_text(2.0 * flank) +
-                      " or more; " + number_text(width) + " is given");
+        return refuse(spec.name + ": a slope of " + parameter_text(shape->slope) + " degrees needs a width of " + parameter_text(2.0 * flank) +
+                      " or more; " + parameter_text(width) + " is given");
     Profile profile;
     const std::size_t n = shape->flank.size();
     for (std::size_t i = 0; i < 2 * n; ++i) {

@@ -83,7 +83,7 @@ double line_height(const Profile& profile, double b, bool topmost) {
 // Parameters of an entry: the usual ones, all at their low end, and all at their high end.
 std::vector<ProfileSpec> specs_of(const ProfileEntry& entry) {
     ProfileSpec low{entry.name, {}}, high{entry.name, {}};
-    for (const ProfileParameter& parameter : entry.parameters) {
+    for (const Parameter& parameter : entry.parameters) {
         low.parameters[parameter.name] = parameter.low;
         high.parameters[parameter.name] = parameter.high;
     }
@@ -201,14 +201,15 @@ TEST(Profiles, refusals_say_what_works) {
     const std::pair<const char*, const char*> cases[] = {
         {"", "profile '' is not known; one of vee, u, flat, bead, cove, ogee, stair, overhang, burr works"},
         {"wedge", "profile 'wedge' is not known; one of vee, u, flat"},
-        {"vee(floor=1)", "profile vee has no parameter 'floor'; it has none"},
-        {"flat(flor=1)", "profile flat has no parameter 'flor'; floor, slope work"},
+        {"vee(floor=1)", "profile vee: no parameter is called 'floor'; there are none"},
+        {"flat(flor=1)", "profile flat: no parameter is called 'flor'; floor, slope work"},
         {"flat(floor=2)", "profile flat: floor 2 is out of its range; 0 to 1 works"},
-        {"flat(floor=nan)", "profile flat: 'floor=nan' is not parameter=number"},
-        {"flat(floor)", "profile flat: 'floor' is not parameter=number, such as floor=0.4"},
+        {"flat(floor=nan)", "profile flat: 'floor=nan' is not NAME=NUMBER"},
+        {"flat(floor)", "profile flat: 'floor' is not NAME=NUMBER"},
         {"flat(floor=0.1,floor=0.2)", "profile flat: floor is given twice"},
+        {"flat(floor=0.1,)", "profile flat: '' is not NAME=NUMBER"},
         {"flat(floor=0.1", "does not end in ')'"},
-        {"stair(steps=2.5)", "profile stair: steps 2.5 is not a whole number; 2 to 7 works"},
+        {"stair(steps=2.5)", "profile stair: steps 2.5 is not a whole number; 2 to 7, whole works"},
     };
     for (const auto& [text, message] : cases) {
         const auto spec = parse_profile(text);

@@ -11,11 +11,11 @@
 // its facets where it undercuts; `burr` rises to both sides of the ground; all others are height fields between 0 and `height`.
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <burin/parameter.hpp>
 #include <burin/pattern.hpp>
 #include <burin/result.hpp>
 
@@ -23,20 +23,13 @@ namespace burin {
 
 struct ProfileSpec {
     std::string name = "vee";
-    std::map<std::string, double> parameters;  // those that differ from the usual ones
-};
-
-struct ProfileParameter {
-    const char* name;
-    double usual, low, high;  // both ends included
-    const char* help;         // one line, no full stop
-    bool whole = false;       // a whole number
+    ParameterValues parameters;  // those that differ from the usual ones
 };
 
 struct ProfileEntry {
     const char* name;
-    const char* help;
-    std::vector<ProfileParameter> parameters;
+    const char* help;  // one line, no full stop
+    std::vector<Parameter> parameters;
 };
 
 // Every profile that has a name, in the order of the documentation.
