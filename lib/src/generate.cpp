@@ -107,11 +107,11 @@ std::vector<Kind> make_kinds() {
            {"wavelength", 0.004, 1e-7, 1e4, "of the swelling", "m"}}}, make_vinyl},
         {{"chainmail", "linked rings, four through each", "bead(points=3)", false,
           {{"columns", 8, 2, 500, "rings along u", "", true},
-           {"row_pairs", 8, 1, 500, "pairs of rows along v", "", true},
-           {"ring", 0.46, 0.1, 0.7, "radius of a ring, as a share of the distance from ring to ring"},
-           {"wire", 0.17, 0.01, 0.4, "thickness of the wire, likewise"},
-           {"height", 0.004, 1e-9, 1e4, "of a ring where it is highest", "m"},
-           {"lean", 0.3, 0, 0.45, "how much lower a ring is in its middle than there, and once more on its far side"}}}, make_chainmail},
+           {"row_pairs", 7, 1, 500, "pairs of rows along v", "", true},
+           {"ring", 0.45, 0.1, 0.7, "radius of a ring, as a share of the distance from ring to ring"},
+           {"wire", 0.13, 0.01, 0.4, "thickness of the wire, likewise"},
+           {"height", 0.003, 1e-9, 1e4, "of a ring where it is highest", "m"},
+           {"lean", 0.2, 0, 0.45, "how much lower a ring is in its middle than there, and once more on its far side"}}}, make_chainmail},
     };
 }
 

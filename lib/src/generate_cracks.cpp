@@ -7,7 +7,7 @@
 namespace burin::generating {
 namespace {
 
-constexpr int kSteps = 24;         // pieces of a crack of full length
+constexpr int kSteps = 40;         // pieces of a crack of full length
 constexpr double kMostPaths = 200000;
 
 class CrackGrower {

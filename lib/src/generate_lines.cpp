@@ -101,25 +101,22 @@ class Hatcher {
     std::uint32_t noise_;
 };
 
-// One thread of a weave along `way`, from `start`; it goes over every second of the `crossings` threads that it meets.
+// One thread of a weave along `way`, the distance between two threads that it meets. Threads that tile begin a quarter of it before
+// the first that they meet, so that they are level over it; others three quarters earlier, outside the tile, and end there.
 Path thread(Vec2 start, Vec2 way, int crossings, bool over_first, double under, std::uint32_t profile, bool closed) {
     const auto height = [&](int crossing) { return (crossing % 2 == 0) == over_first ? 1.0 : under; };
     Path path;
     path.profile = profile;
     path.closed = closed;
-    // Level over the other thread, then down or up to the next crossing.
-    const double share = 1.0 / crossings, level = 0.5 * share;
-    const auto at = [&](double s) { return start + way * s; };
-    for (int k = 0; k < crossings; ++k) {
-        const double begin = k * share;
-        Element flat = straight(at(begin), at(begin + level)), slope = straight(at(begin + level), at(begin + share));
+    for (int k = closed ? 0 : -1; k < crossings; ++k) {
+        const Vec2 from = start + way * (k + 0.25), middle = start + way * (k + 0.75), to = start + way * (k + 1.25);
+        // Level over or under the other thread, then down or up to the next crossing.
+        Element flat = straight(path.elements.empty() ? from : path.elements.back().p2, middle), slope = straight(middle, to);
         flat.height0 = flat.height1 = slope.height0 = height(k);
         slope.height1 = height(k + 1);
         path.elements.push_back(flat);
         path.elements.push_back(slope);
     }
-    if (closed) path.elements.back().p2 = start + way;
-    for (std::size_t i = 1; i < path.elements.size(); ++i) path.elements[i].p0 = path.elements[i - 1].p2;
     return path;
 }
 
@@ -148,11 +145,10 @@ Status make_weave(Work& work) {
     const auto upright = work.add_section(share * pitch.x, work.value("height"));
     const auto level = work.add_section(share * pitch.y, work.value("height"));
     if (!upright || !level) return (upright ? level : upright).error();
-    // A thread starts a quarter pitch before the first that it crosses, so that it is level over it.
     for (int i = 0; i < warp; ++i)
-        work.pattern.paths.push_back(thread({(i + 0.5) * pitch.x, 0.25 * pitch.y * work.repeats()}, {0.0, size.y}, weft, i % 2 == 0, under, *upright, work.repeats()));
+        work.pattern.paths.push_back(thread({(i + 0.5) * pitch.x, 0.0}, {0.0, pitch.y}, weft, i % 2 == 0, under, *upright, work.repeats()));
     for (int k = 0; k < weft; ++k)
-        work.pattern.paths.push_back(thread({0.25 * pitch.x * work.repeats(), (k + 0.5) * pitch.y}, {size.x, 0.0}, warp, k % 2 == 1, under, *level, work.repeats()));
+        work.pattern.paths.push_back(thread({0.0, (k + 0.5) * pitch.y}, {pitch.x, 0.0}, warp, k % 2 == 1, under, *level, work.repeats()));
     return Done{};
 }
 
