@@ -145,6 +145,7 @@ double swelling(const Pattern& pattern, const Path& path) {
 
 // Depth and base offset as the paths need them.
 void fit_depth(Pattern& pattern) {
+    if (pattern.paths.empty()) pattern.profiles.clear();
     double low = std::min(0.0, pattern.outer_level), high = std::max(0.0, pattern.outer_level);
     std::vector<std::pair<double, double>> reaches;
     for (const Profile& profile : pattern.profiles) {
@@ -153,7 +154,8 @@ void fit_depth(Pattern& pattern) {
             reaches.back() = {std::min(reaches.back().first, p.h), std::max(reaches.back().second, p.h)};
     }
     for (const Path& path : pattern.paths) {
-        double scale = 0.0;
+        // A profile itself lies within the depth, even where all that carry it are lower.
+        double scale = 1.0;
         for (const Element& e : path.elements) scale = std::max({scale, e.height0, e.height1});
         scale *= swelling(pattern, path);
         low = std::min(low, path.level + scale * reaches[path.profile].first);

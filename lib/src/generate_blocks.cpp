@@ -8,6 +8,9 @@
 namespace burin::generating {
 namespace {
 
+// By how much of what a joint leaves between two bevels a corner may stray: less than half of it, so that they stay apart.
+constexpr double kFarthestStray = 0.45;
+
 // A block that fills a cell of the wall; corners clockwise on screen, from the upper left one.
 using Corners = std::array<Vec2, 4>;
 
@@ -33,21 +36,19 @@ class Mason {
   public:
     Mason(Work& work, std::uint32_t profile)
         : work_(work), profile_(profile), joint_(work.value("joint")), depth_(work.value("depth")), round_(work.value("round")),
-          uneven_(work.value("uneven")), irregular_(work.value("irregular")), chance_(work.spec.seed) {}
+          uneven_(work.value("uneven")), stray_(work.value("irregular") * kFarthestStray * (joint_ - work.value("bevel"))), chance_(work.spec.seed) {}
 
     Status lay(Vec2 low, Vec2 high) {
         const Vec2 room = high - low;
-        const double need = joint_ + 2.0 * std::max(round_, 0.5 * work_.value("bevel"));
+        const double need = joint_ + 2.0 * (stray_ + std::max(round_, 0.5 * work_.value("bevel")));
         if (std::min(room.x, room.y) <= 1.05 * need)
             return refuse(work_, "blocks of " + parameter_text(room.x) + " by " + parameter_text(room.y) + " m have no room for joint, bevel and round corners; they need " +
                                      parameter_text(1.05 * need) + " m");
         const double h = 0.5 * joint_;
         Corners corners = {Vec2{low.x + h, low.y + h}, Vec2{high.x - h, low.y + h}, Vec2{high.x - h, high.y - h}, Vec2{low.x + h, high.y - h}};
-        // Corners stray outwards by less than what keeps neighbours' bevels apart.
-        const double stray = irregular_ * 0.45 * (joint_ - work_.value("bevel"));
         for (Vec2& corner : corners) {
-            corner.x += stray * chance_.between(-1.0, 1.0);
-            corner.y += stray * chance_.between(-1.0, 1.0);
+            corner.x += stray_ * chance_.between(-1.0, 1.0);
+            corner.y += stray_ * chance_.between(-1.0, 1.0);
         }
         Path path = outline(corners, round_, profile_);
         path.level = -depth_;
@@ -60,7 +61,7 @@ class Mason {
   private:
     Work& work_;
     std::uint32_t profile_;
-    double joint_, depth_, round_, uneven_, irregular_;
+    double joint_, depth_, round_, uneven_, stray_;
     Chance chance_;
 };
 
