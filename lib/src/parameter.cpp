@@ -62,7 +62,7 @@ Result<ParameterValues> complete_parameters(const std::string& owner, const std:
         names.append(names.empty() ? "" : ", ").append(parameter.name);
     }
     for (const auto& [name, value] : given) {
-        const auto parameter = std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return name == p.name; });
+        const auto parameter = std::find_if(table.begin(), table.end(), [&name = name](const Parameter& p) { return name == p.name; });
         if (parameter == table.end())
             return refuse(owner, std::string("no parameter is called '").append(name).append("'; ")
                                      .append(names.empty() ? "there are none" : names.append(" work")));
