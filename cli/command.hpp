@@ -29,16 +29,21 @@ struct Command {
     const char* positional;  // how --help names the file the command reads
     const char* summary;     // one line, what the command does
     ExitCode (*run)(const Arguments&);
+    std::string (*more_help)() = nullptr;  // text of --help after the options
 };
 
 ExitCode run_convert(const Arguments& arguments);
 ExitCode run_vectorize(const Arguments& arguments);
 ExitCode run_pack(const Arguments& arguments);
+ExitCode run_generate(const Arguments& arguments);
 ExitCode run_render(const Arguments& arguments);
 ExitCode run_check(const Arguments& arguments);
 ExitCode run_info(const Arguments& arguments);
 ExitCode run_mesh(const Arguments& arguments);
 ExitCode run_validate(const Arguments& arguments);
+
+// The kinds of patterns that run_generate knows, with their parameters.
+std::string generate_help();
 
 // The code for an error met while reading or working on an input, and while writing an output.
 ExitCode code_for_input(const Error& error);

@@ -371,6 +371,7 @@ std::string help_text(const Command& command) {
     for (const OptionSpec& spec : option_table())
         if (belongs(spec, command.name)) text += option_line(spec);
     text += "  -h, --help                  this text\n";
+    if (command.more_help) text += command.more_help();
     return text + kExitCodes;
 }
 

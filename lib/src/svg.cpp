@@ -75,9 +75,13 @@ std::string header(const Pattern& pattern) {
            attribute("data-burin-materials", spaced(pattern.materials, material_text)) + ">\n";
 }
 
-std::string layer(const std::string& label, const std::string& style, const std::string& content) {
-    return "  <g" + attribute("id", label) + attribute("inkscape:groupmode", "layer") + attribute("inkscape:label", label) +
-           attribute("style", style) + ">\n" + content + "  </g>\n";
+// Appends a layer around what add_content() appends: a drawing of a million paths is too long to be copied.
+template <typename Content>
+void add_layer(std::string& svg, const std::string& label, const std::string& style, const Content& add_content) {
+    svg += "  <g" + attribute("id", label) + attribute("inkscape:groupmode", "layer") + attribute("inkscape:label", label) +
+           attribute("style", style) + ">\n";
+    add_content();
+    svg += "  </g>\n";
 }
 
 // The section as it would be cut out of the surface, up being up; at the page's origin.
@@ -182,22 +186,24 @@ std::string path_element(const Pattern& pattern, std::size_t index) {
            stroke(pattern, path) + attribute("d", path_data(path.elements)) + "/>\n";
 }
 
-std::string path_layer(const Pattern& pattern, PathKind kind, const char* label, const char* color) {
-    std::string content;
-    for (std::size_t i = 0; i < pattern.paths.size(); ++i)
-        if (path_kind(pattern, pattern.paths[i]) == kind) content += path_element(pattern, i) + clones(pattern, i);
-    return layer(label, std::string("fill:none;stroke:") + color + ";stroke-opacity:0.6;stroke-linejoin:miter", content);
+void add_paths(std::string& svg, const Pattern& pattern, PathKind kind, const char* label, const char* color) {
+    add_layer(svg, label, std::string("fill:none;stroke:") + color + ";stroke-opacity:0.6;stroke-linejoin:miter", [&] {
+        for (std::size_t i = 0; i < pattern.paths.size(); ++i)
+            if (path_kind(pattern, pattern.paths[i]) == kind) svg += path_element(pattern, i) + clones(pattern, i);
+    });
 }
 
 }  // namespace
 
 std::string write_svg(const Pattern& pattern) {
-    std::string profiles;
-    for (std::size_t i = 0; i < pattern.profiles.size(); ++i) profiles += profile_element(pattern.profiles[i], i);
-    return header(pattern) + layer("profiles", "display:none;fill:none;stroke:#000000", profiles) +
-           path_layer(pattern, PathKind::step, "steps", "#c2188f") +
-           path_layer(pattern, PathKind::ridge, "ridges", "#e07b00") +
-           path_layer(pattern, PathKind::groove, "grooves", "#0086b3") + "</svg>\n";
+    std::string svg = header(pattern);
+    add_layer(svg, "profiles", "display:none;fill:none;stroke:#000000", [&] {
+        for (std::size_t i = 0; i < pattern.profiles.size(); ++i) svg += profile_element(pattern.profiles[i], i);
+    });
+    add_paths(svg, pattern, PathKind::step, "steps", "#c2188f");
+    add_paths(svg, pattern, PathKind::ridge, "ridges", "#e07b00");
+    add_paths(svg, pattern, PathKind::groove, "grooves", "#0086b3");
+    return svg += "</svg>\n";
 }
 
 }  // namespace burin

@@ -50,6 +50,7 @@ TEST(OptionTable, defaults_are_in_range) {
     const Command commands[] = {{"convert", "MAP", "", nullptr}, {"render", "ASSET", "", nullptr},
                                 {"check", "ASSET", "", nullptr}, {"info", "FILE", "", nullptr},
                                 {"mesh", "ASSET", "", nullptr},  {"pack", "DRAWING", "", nullptr},
+                                {"generate", "KIND", "", nullptr},
                                 {"validate", "ASSET", "", nullptr}};
     for (const OptionSpec& spec : option_table()) {
         const std::string name = std::string(spec.name).substr(0, std::string(spec.name).find(','));

@@ -49,6 +49,11 @@ def main():
         for words in ([], ["--top"]):
             refuse(verdicts, arguments.burin, ["render", asset_png, "-o", asset_png] + words, asset_png, f"render {words}")
 
+        for suffix, words in ((".svg", ["--mask"]), (".glb", ["--model"])):
+            read = os.path.join(folder, "read" + suffix)
+            shutil.copyfile(groove if suffix == ".svg" else asset, read)
+            refuse(verdicts, arguments.burin, ["generate", "scratches", "-o", read, *words, read], read, f"generate onto {words[0]}")
+
         # What was there but is not read is replaced as ever.
         again = harness.run(arguments.burin, ["convert", map_glb, "-o", asset])
         verdicts.expect(again.status == 0, "an older output is replaced", again)
