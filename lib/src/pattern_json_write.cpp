@@ -81,8 +81,11 @@ std::string path_text(const Pattern& pattern, const Path& path) {
 template <typename Text>
 std::string section(const char* name, std::size_t first, std::size_t count, const Text& text) {
     std::string all;
-    for (std::size_t i = first; i < count; ++i) all += (all.empty() ? "" : ",") + std::string("\n        ") + text(i);
-    return all.empty() ? "" : ",\n    " + quoted(name) + ": [" + all + "\n    ]";
+    for (std::size_t i = first; i < count; ++i) {
+        all += i == first ? ",\n    " + quoted(name) + ": [\n        " : ",\n        ";
+        all += text(i);
+    }
+    return all.empty() ? "" : all.append("\n    ]");
 }
 
 }  // namespace
@@ -120,9 +123,13 @@ std::string text_of(const Perturbation& p) {
 
 std::string write_pattern_json(const Pattern& pattern) {
     using pattern_json::text_of;
-    return "{\n    \"size\": " + pair_of(pattern.size.x, pattern.size.y) + ",\n    \"depth\": " + exact(pattern.depth) +
-           ",\n    \"base_offset\": " + exact(pattern.base_offset) + ",\n    \"wrap\": " + quoted(name_in(kWrapNames, pattern.wrap)) +
-           ",\n    \"outer_level\": " + exact(pattern.outer_level) +
+    Members frame;
+    frame.add("size", pair_of(pattern.size.x, pattern.size.y)).add("depth", exact(pattern.depth)).add("base_offset", exact(pattern.base_offset));
+    frame.add("wrap", quoted(name_in(kWrapNames, pattern.wrap))).add("outer_level", exact(pattern.outer_level));
+    std::string text = frame.text();
+    text.pop_back();
+    // Each on a line of its own, as the lists are.
+    return text.insert(1, "\n    ") +
            section("profiles", 0, pattern.profiles.size(), [&](std::size_t i) { return text_of(pattern.profiles[i]); }) +
            // Material 0 is the one of the glTF file and needs no words.
            section("materials", 1, pattern.materials.size(), [&](std::size_t i) { return text_of(pattern.materials[i]); }) +
