@@ -148,7 +148,7 @@ std::string range_words(const JsonRange& range) {
     constexpr double any = std::numeric_limits<double>::max();
     const std::string low = number_words(range.low), high = number_words(range.high);
     if (range.high >= any) return range.above ? "more than " + low : low + " or more";
-    return (range.above ? "above " + low + " up to " : low + " to ") + high;
+    return (range.above ? "above " + low + " up to " : low + " to ") + (range.below ? "below " : "") + high;
 }
 
 // Changes of one letter that make b of a, at most `most` + 1.
@@ -253,8 +253,7 @@ void JsonReader::expect(const JsonValue& value, const std::string& what_works) {
 double JsonReader::number(const JsonValue& value, const JsonRange& range) {
     const double* number = std::get_if<double>(&value.data);
     if (number == nullptr) return expect(value, "a number"), 0.0;
-    const bool low_enough = *number <= range.high, high_enough = range.above ? *number > range.low : *number >= range.low;
-    if (low_enough && high_enough) return *number;
+    if (range.contains(*number)) return *number;
     refuse(value, shown(value) + " is out of its range; " + range_words(range) + " works");
     return 0.0;
 }

@@ -164,6 +164,7 @@ std::uint32_t refer(Reading& reading, const JsonValue& value, Entries& entries, 
         json.refuse(value, unknown_name(entries, value, *name));
     } else if (value.is_object()) {
         JsonObject object(json, value);
+        if (const JsonValue* own_name = object.find("name")) json.text(*own_name);
         const Item item = read(reading, value, object);
         object.finish();
         return json.failed() ? 0 : share(entries, items, item);

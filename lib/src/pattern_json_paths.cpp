@@ -11,7 +11,7 @@
 namespace burin::pattern_json {
 namespace {
 
-constexpr JsonRange kScale{0.0, 4.0};
+constexpr JsonRange kScale{.low = 0.0, .high = 4.0, .below = true};
 
 // About the arc length: between chord and control polygon.
 double length_of(const Element& e) {

@@ -20,11 +20,11 @@ inline constexpr std::array kPerturbationNames{"sine", "polynomial", "noise"};
 template <typename Names, typename Kind>
 constexpr const char* name_in(const Names& names, Kind kind) { return names[static_cast<std::size_t>(kind)]; }
 
-// As many digits as tell a double (a float) from all others.
+// As many digits as tell a double (a float) from all others. Zero has no sign: equal numbers give equal text.
 template <typename Number>
 std::string exact(Number value) {
     std::array<char, 32> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value + Number(0)).ptr;
     return {text.data(), end};
 }
 

@@ -55,10 +55,13 @@ Result<JsonValue> parse_json_text(std::string_view text, const std::string& file
 // "groove" for "grove": the name that takes the fewest changes; none when all of them are far from it.
 std::string nearest_name(const std::string& wrong, std::span<const std::string> names);
 
-// What a number may be. Both ends are included unless `above` is set, which excludes the lower one.
+// What a number may be. Both ends are included, unless `above` excludes the lower one and `below` the upper one.
 struct JsonRange {
     double low = -std::numeric_limits<double>::max(), high = std::numeric_limits<double>::max();
-    bool above = false;
+    bool above = false, below = false;
+    bool contains(double number) const {
+        return (above ? number > low : number >= low) && (below ? number < high : number <= high);
+    }
 };
 
 // Reads values of one document and keeps the first complaint. The document must outlive it.
