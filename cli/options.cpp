@@ -23,13 +23,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-bool belongs(const OptionSpec& spec, const std::string& command) {
-    const auto names = split(spec.commands, ' ');
-    return std::find(names.begin(), names.end(), command) != names.end();
-}
-
-std::string long_name(const OptionSpec& spec) { return split(spec.name, ',').front(); }
-
 const OptionSpec* find_option(const std::string& command, const std::string& name) {
     for (const OptionSpec& spec : option_table())
         if (long_name(spec) == name && belongs(spec, command)) return &spec;
@@ -269,6 +262,13 @@ constexpr const char* kExitCodes =
     "            5 not available here; 70 bug in burin\n";
 
 }  // namespace
+
+bool belongs(const OptionSpec& spec, const std::string& command) {
+    const auto names = split(spec.commands, ' ');
+    return std::find(names.begin(), names.end(), command) != names.end();
+}
+
+std::string long_name(const OptionSpec& spec) { return split(spec.name, ',').front(); }
 
 bool Arguments::given(const std::string& name) const { return values.count(name) != 0; }
 

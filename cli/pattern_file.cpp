@@ -1,6 +1,7 @@
 #include "pattern_file.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <string_view>
 
 #include <burin/image_io.hpp>
@@ -92,6 +93,15 @@ Result<PatternFile> read_json(std::string_view text, const std::string& path, co
 }
 
 }  // namespace
+
+bool looks_like_drawing(const std::string& path) {
+    if (has_suffix(path, "json|svg")) return true;
+    std::ifstream file(path, std::ios::binary);
+    char start[256];
+    file.read(start, sizeof start);
+    const std::string_view text(start, static_cast<std::size_t>(file.gcount()));
+    return begins_with(text, '{') || begins_with(text, '<');
+}
 
 Result<PatternFile> read_pattern_file(const std::string& path, const Arguments& arguments) {
     const auto bytes = read_file(path, std::max<std::uint64_t>(kMaxSvgBytes, kMaxJsonTextBytes));
