@@ -1,5 +1,7 @@
 // burin pack: a drawing of paths to a glb that carries it.
+#include <charconv>
 #include <string>
+#include <string_view>
 
 #include <burin/author.hpp>
 #include <burin/image_io.hpp>
@@ -26,6 +28,17 @@ Report describe(const Arguments& arguments, const Authored& authored, const Patt
     return report;
 }
 
+// Stages name a path by its number among all; who drew it looks for its line in the file.
+std::string with_source(const PatternFile& file, const std::string& message) {
+    constexpr std::string_view word = "path ";
+    std::size_t index = 0;
+    if (!message.starts_with(word)) return message;
+    const auto [end, trouble] = std::from_chars(message.data() + word.size(), message.data() + message.size(), index);
+    if (trouble != std::errc{} || index >= file.sources.size()) return message;
+    const auto at = static_cast<std::size_t>(end - message.data());
+    return message.substr(0, at) + " (" + file.sources[index] + ")" + message.substr(at);
+}
+
 }  // namespace
 
 Result<PackedDrawing> pack_file(const Arguments& arguments, const OptionalModel& model) {
@@ -35,7 +48,7 @@ Result<PackedDrawing> pack_file(const Arguments& arguments, const OptionalModel&
     if (model)
         if (const auto target = find_material(*model, options.attach); !target) return target.error();
     auto authored = author_asset(file->pattern, model ? *model : make_plane(file->pattern.size), options);
-    if (!authored) return Error{authored.error().code, arguments.file + ": " + authored.error().message};
+    if (!authored) return Error{authored.error().code, arguments.file + ": " + with_source(*file, authored.error().message)};
     return PackedDrawing{std::move(*file), std::move(*authored)};
 }
 

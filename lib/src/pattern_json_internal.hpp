@@ -38,6 +38,7 @@ struct Reading {
     Entries profiles{"profiles"}, materials{"materials"}, perturbations{"perturbations"};
     double tolerance = 0.0;    // of curves that are no quadratics, in the document's unit
     std::size_t elements = 0;  // so far
+    std::vector<std::string> sources{};  // of the pattern's paths
 
     double along(const JsonValue& value, const JsonRange& range = {}) { return plane.metres(json.number(value, range)); }
     double up(const JsonValue& value) { return height.metres(json.number(value)); }

@@ -132,12 +132,21 @@ std::vector<Vec2> read_places(Reading& reading, const JsonValue* value, std::spa
     return places;
 }
 
+std::string source_of(const JsonValue& value) {
+    std::string source = "line " + std::to_string(value.line);
+    if (const auto* members = std::get_if<JsonValue::Object>(&value.data))
+        for (const JsonMember& member : *members)
+            if (member.name == "name" && member.value.is_text()) source += ", '" + std::get<std::string>(member.value.data) + "'";
+    return source;
+}
+
 void add_copies(Reading& reading, const JsonValue& value, const Path& path, std::span<const Vec2> places) {
     if (reading.json.failed()) return;
     reading.elements += path.elements.size() * places.size();
     if (reading.elements > kMaxPatternJsonElements)
         return reading.json.refuse(value, std::to_string(reading.elements) + " elements up to here, limit " + std::to_string(kMaxPatternJsonElements),
                                    ErrorCode::limit_exceeded);
+    reading.sources.insert(reading.sources.end(), places.size(), source_of(value));
     for (const Vec2 place : places) {
         Path& copy = reading.pattern.paths.emplace_back(path);
         for (Element& e : copy.elements) e.p0 = e.p0 + place, e.p1 = e.p1 + place, e.p2 = e.p2 + place;

@@ -52,7 +52,7 @@ void read_frame(Reading& reading, JsonObject& document) {
 }  // namespace
 }  // namespace pattern_json
 
-Result<Pattern> read_pattern_json(std::string_view text, const std::string& name) {
+Result<Pattern> read_pattern_json(std::string_view text, const std::string& name, std::vector<std::string>* sources) {
     const auto root = parse_json_text(text, name);
     if (!root) return root.error();
     JsonReader json(*root, name);
@@ -65,6 +65,7 @@ Result<Pattern> read_pattern_json(std::string_view text, const std::string& name
     pattern_json::read_regions(reading, document.find("regions"), reading.pattern.outer_level, once);
     document.finish();
     if (json.failed()) return json.error();
+    if (sources != nullptr) *sources = std::move(reading.sources);
     return std::move(reading.pattern);
 }
 

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <burin/pattern.hpp>
 #include <burin/result.hpp>
@@ -25,7 +26,8 @@ inline constexpr std::size_t kMaxOutlineSubpaths = 1024;
 // Fails with invalid_input (what is damaged, unknown, missing, twice there, out of its range or of the wrong kind) and limit_exceeded; the
 // message names line, place and value, and says what would work. Whether the geometry can be resolved is not asked here.
 // Cost: linear in the text and the elements; of one outline, quadratic in its subpaths.
-Result<Pattern> read_pattern_json(std::string_view text, const std::string& name);
+// `sources`: unless null, where each path of the pattern comes from: "line 12", or "line 12, 'bolt'" where it has a name.
+Result<Pattern> read_pattern_json(std::string_view text, const std::string& name, std::vector<std::string>* sources = nullptr);
 
 // Every number has as many digits as make a reader's double the same, so that reading gives an equal pattern (but for the unused control
 // points of lines, parameters that the kind of a perturbation does not use, and colours of materials without overrides).
