@@ -125,7 +125,10 @@ Report describe(const std::string& output, const Recipe& recipe, const Built& bu
 // Every file that the recipe reads, itself too.
 std::vector<std::string> inputs_of(const Arguments& arguments, const Recipe& recipe) {
     std::vector<std::string> inputs{arguments.file, recipe.model};
-    for (const RecipePattern& pattern : recipe.patterns) inputs.push_back(pattern.arguments.file);
+    for (const auto& [place, pattern] : recipe.patterns) {
+        inputs.push_back(pattern.file);
+        if (pattern.command == "pack") inputs.push_back(pattern.text("--font"));
+    }
     return inputs;
 }
 

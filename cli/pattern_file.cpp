@@ -83,7 +83,8 @@ Result<PatternFile> read_drawing(std::string_view text, const std::string& path,
 
 // A pattern in JSON says itself what the options of drawings say.
 Result<PatternFile> read_json(std::string_view text, const std::string& path, const Arguments& arguments) {
-    for (const char* option : {"--size", "--tolerance", "--wrap", "--stroke", "--fill", "--meaning", "--text"})
+    for (const char* option : {"--size", "--tolerance", "--wrap", "--stroke", "--fill", "--meaning", "--text", "--font", "--text-path",
+                               "--text-size", "--text-width"})
         if (arguments.given(option))
             return Error{ErrorCode::invalid_argument, std::string(option) + " is for drawings in SVG; '" + path + "' is JSON and says it itself"};
     std::vector<std::string> sources;

@@ -102,7 +102,9 @@ class RecipeReader {
             if (!belongs(spec, command) || std::count(kNotOfPatterns.begin(), kNotOfPatterns.end(), long_name(spec)) > 0) continue;
             const JsonValue* given = object.find(property_of(spec).c_str());
             if (given == nullptr || json_.failed()) continue;
-            options.push_back(long_name(spec) + "=" + word_of(json_, *given, spec));
+            // The one option that names a file.
+            const bool names_file = long_name(spec) == "--font";
+            options.push_back(long_name(spec) + "=" + (names_file ? file_named(*given) : word_of(json_, *given, spec)));
             if (const auto alone = parse(command, file, {options.back()}); !alone) json_.refuse(*given, alone.error().message);
         }
         object.finish();
