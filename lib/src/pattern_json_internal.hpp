@@ -15,7 +15,7 @@
 
 namespace burin::pattern_json {
 
-// Metres are number * multiply / divide, so that 5 mm are the double nearest to 0.005.
+// Metres are number * multiply / divide, rounded once where one of both is 1: 5 mm are the double nearest to 0.005.
 struct Unit {
     const char* name;
     double multiply, divide;

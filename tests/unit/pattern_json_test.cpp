@@ -31,7 +31,7 @@ Path one_path(const std::string& members) {
     return pattern.paths.empty() ? Path{} : pattern.paths.front();
 }
 
-TEST(PatternJson, units_give_the_nearest_double) {
+TEST(PatternJson, units_are_rounded_once) {
     const auto text = [](const std::string& units) {
         return "{\"units\": " + units + ", \"size\": [5, 7.3], \"depth\": 3, \"outer_level\": -0.7, \"paths\": [{\"profile\": "
                "{\"points\": [[-0.3, 0], [0.3, -0.1]]}, \"d\": \"M0.1 0.2 L3 4\"}]}";
@@ -47,7 +47,7 @@ TEST(PatternJson, units_give_the_nearest_double) {
     ASSERT_TRUE(both.ok());
     EXPECT_EQ(both->size.x, 0.05);
     EXPECT_EQ(both->depth, 3e-6);
-    EXPECT_EQ(both->profiles[0].points[1].h, -1e-7);
+    EXPECT_EQ(both->profiles[0].points[1].h, -0.1 / 1e6);
     EXPECT_EQ(both->profiles[0].points[1].b, 0.003);
     const auto inches = read_pattern_json(text("\"in\""), "p.json");
     ASSERT_TRUE(inches.ok());
@@ -111,7 +111,10 @@ TEST(PatternJson, entries_by_name_by_index_and_in_place) {
 Image heights_of(const Pattern& pattern) {
     const auto resolved = resolve_pattern(pattern);
     EXPECT_TRUE(resolved.ok()) << resolved.error().message;
-    return resolved.ok() ? rasterize_height(*resolved, 20, 20, {.samples = 1, .threads = 1}) : Image{20, 20, std::vector<float>(400)};
+    if (resolved.ok()) return rasterize_height(*resolved, 20, 20, {.samples = 1, .threads = 1});
+    Image nothing;
+    nothing.texels.resize(400);
+    return nothing;
 }
 
 // A map's value to metres.
