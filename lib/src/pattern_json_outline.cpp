@@ -77,7 +77,7 @@ std::vector<Subpath> read_curves(Reading& reading, const JsonValue& value) {
         std::vector<Vec2> points;
         for (const JsonValue& point : json.list(value, 2, std::size_t(-1))) points.push_back(reading.plane.metres(json.pair(point)));
         Elements elements = polyline(points);
-        if (!elements.empty()) subpaths.push_back({std::move(elements), points.front() == points.back(), points.front()});
+        if (!elements.empty()) subpaths.push_back({.elements = std::move(elements), .closed = points.front() == points.back(), .start = points.front()});
     } else if (value.is_text()) {
         subpaths = read_path_data(reading, value);
     } else {
@@ -92,7 +92,8 @@ void close_outline(Reading& reading, const JsonValue& value, std::vector<Subpath
         return reading.json.refuse(value, std::to_string(subpaths.size()) + " subpaths in one outline, limit " + std::to_string(kMaxOutlineSubpaths) +
                                               "; several regions work", ErrorCode::limit_exceeded);
     std::vector<std::vector<Vec2>> polygons;
-    for (auto& [elements, closed, first] : subpaths) {
+    for (Subpath& subpath : subpaths) {
+        Elements& elements = subpath.elements;
         const Vec2 start = elements.front().p0, end = elements.back().p2;
         if (!(start == end)) elements.push_back({ElementKind::line, end, lerp(end, start, 0.5), start});
         polygons.push_back(flattened(elements));

@@ -1,50 +1,15 @@
 // Random patterns through their JSON: what is read is what was written, to the last bit; and what is damaged is an error, never worse.
-#include <algorithm>
-#include <cstring>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include <burin/pattern_json.hpp>
 
+#include "../unit/pattern_equal.hpp"
 #include "perturbed.hpp"
 
 namespace burin {
 namespace {
-
-bool same(const Element& a, const Element& b) {
-    return a.kind == b.kind && a.p0 == b.p0 && a.p2 == b.p2 && (a.kind == ElementKind::line || a.p1 == b.p1) && a.width0 == b.width0 &&
-           a.width1 == b.width1 && a.height0 == b.height0 && a.height1 == b.height1;
-}
-bool same(const ProfilePoint& a, const ProfilePoint& b) { return a.b == b.b && a.h == b.h; }
-bool same(FacetClass a, FacetClass b) { return a == b; }
-bool same(const Material& a, const Material& b) {
-    if (!a.overrides || !b.overrides) return a.overrides == b.overrides;
-    return std::equal(a.base_color, a.base_color + 4, b.base_color) && a.metallic == b.metallic && a.roughness == b.roughness;
-}
-bool same(const Perturbation& a, const Perturbation& b) {
-    if (a.kind != b.kind) return false;
-    if (a.kind == PerturbationKind::polynomial)
-        return std::equal(a.width_polynomial, a.width_polynomial + 4, b.width_polynomial) &&
-               std::equal(a.height_polynomial, a.height_polynomial + 4, b.height_polynomial);
-    if (a.width != b.width || a.height != b.height || a.wavelength != b.wavelength) return false;
-    return a.kind == PerturbationKind::sine ? a.phase == b.phase : a.seed == b.seed && a.octaves == b.octaves;
-}
-bool same(const Profile& a, const Profile& b);
-bool same(const Path& a, const Path& b);
-template <typename Item>
-bool same(const std::vector<Item>& a, const std::vector<Item>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Item& x, const Item& y) { return same(x, y); });
-}
-bool same(const Profile& a, const Profile& b) { return same(a.points, b.points) && same(a.facets, b.facets); }
-bool same(const Path& a, const Path& b) {
-    return same(a.elements, b.elements) && a.closed == b.closed && a.profile == b.profile && a.material == b.material && a.level == b.level &&
-           a.join == b.join && a.start_cap == b.start_cap && a.end_cap == b.end_cap && a.perturbation == b.perturbation;
-}
-bool same(const Pattern& a, const Pattern& b) {
-    return a.size == b.size && a.depth == b.depth && a.base_offset == b.base_offset && a.wrap == b.wrap && a.outer_level == b.outer_level &&
-           same(a.profiles, b.profiles) && same(a.materials, b.materials) && same(a.paths, b.paths) && same(a.perturbations, b.perturbations);
-}
 
 // What random_pattern leaves plain: flags, levels, materials whose floats take all their bits.
 Pattern odd_pattern(std::uint64_t seed) {
@@ -78,7 +43,8 @@ TEST(PatternJsonProperty, reading_gives_what_was_written) {
         const std::string text = write_pattern_json(pattern);
         const auto read = read_pattern_json(text, "pattern.json");
         ASSERT_TRUE(read.ok()) << read.error().message;
-        ASSERT_TRUE(same(pattern, *read));
+        testing::expect_equal(pattern, *read);
+        if (HasFailure()) return;
         ASSERT_EQ(write_pattern_json(*read), text);
         for (const Path& path : pattern.paths) {
             elements += path.elements.size();
@@ -116,7 +82,8 @@ TEST(PatternJsonProperty, damaged_text_is_an_error_or_a_pattern) {
         if (read) {
             const auto again = read_pattern_json(write_pattern_json(*read), "again.json");
             ASSERT_TRUE(again.ok()) << again.error().message;
-            ASSERT_TRUE(same(*read, *again));
+            testing::expect_equal(*read, *again);
+            if (HasFailure()) return;
             ++taken;
         } else {
             ASSERT_EQ(read.error().message.substr(0, 13), "damaged.json:") << read.error().message;
