@@ -59,7 +59,7 @@ Status check_model_options(const Arguments& arguments) {
 AuthorOptions author_options(const Arguments& arguments) {
     AuthorOptions options;
     options.grid.cell_size = arguments.number("--cell-size");
-    options.attach.material = arguments.text("--material");
+    options.attach = {arguments.text("--material"), arguments.integer("--tex-coord")};
     options.threads = arguments.integer("--threads");
     return options;
 }

@@ -26,7 +26,7 @@ void add_seconds(Report& report, const std::vector<std::pair<std::string, double
 // Fails with invalid_argument: --material without --model.
 Status check_model_options(const Arguments& arguments);
 
-// The stages' options as --cell-size, --material and --threads ask for them.
+// The stages' options as --cell-size, --material, --tex-coord and --threads ask for them.
 AuthorOptions author_options(const Arguments& arguments);
 
 }  // namespace burin::cli

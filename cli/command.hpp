@@ -36,6 +36,7 @@ ExitCode run_convert(const Arguments& arguments);
 ExitCode run_vectorize(const Arguments& arguments);
 ExitCode run_pack(const Arguments& arguments);
 ExitCode run_generate(const Arguments& arguments);
+ExitCode run_build(const Arguments& arguments);
 ExitCode run_render(const Arguments& arguments);
 ExitCode run_check(const Arguments& arguments);
 ExitCode run_info(const Arguments& arguments);

@@ -1,4 +1,5 @@
 // burin convert: a height map to a glb that carries it as paths with cross-sections.
+#include <optional>
 #include <string>
 
 #include <burin/convert.hpp>
@@ -6,38 +7,40 @@
 #include <burin/model.hpp>
 
 #include "asset_file.hpp"
+#include "authored_file.hpp"
 #include "command.hpp"
 #include "found_paths.hpp"
+#include "made_asset.hpp"
 #include "options.hpp"
 #include "report.hpp"
 
 namespace burin::cli {
 
-ExitCode run_convert(const Arguments& arguments) {
-    auto outputs = name_outputs(arguments, "glb", {arguments.file, arguments.text("--model")});
-    if (!outputs) return fail(arguments, ExitCode::usage, outputs.error().message);
-    const auto map = read_map(arguments.file, arguments);
-    if (!map) return fail(arguments, code_for_input(map.error()), map.error().message);
+Result<OptionalModel> read_optional_model(const Arguments& arguments) {
+    if (const Status fitting = check_model_options(arguments); !fitting) return fitting.error();
+    if (!arguments.given("--model")) return OptionalModel{};
+    auto model = read_model(arguments.text("--model"));
+    if (!model) return model.error();
+    return OptionalModel{std::move(*model)};
+}
 
+Result<ConvertedMap> convert_file(const Arguments& arguments, const OptionalModel& model) {
+    auto map = read_map(arguments.file, arguments);
+    if (!map) return map.error();
+    const AttachOptions attach{arguments.text("--material"), arguments.integer("--tex-coord")};
     // The model is looked at before the long work: a wrong name should not cost minutes.
-    Result<Model> model = make_plane({1.0, 1.0});
-    Result<MaterialTarget> target = MaterialTarget{};
-    const bool on_model = arguments.given("--model");
-    if (on_model) {
-        model = read_model(arguments.text("--model"));
-        if (!model) return fail(arguments, code_for_input(model.error()), model.error().message);
-        target = find_material(*model, {arguments.text("--material")});
-        if (!target) return fail(arguments, code_for_input(target.error()), target.error().message);
-    } else if (arguments.given("--material")) {
-        return fail(arguments, ExitCode::usage, "--material names a material of --model, which is not given");
+    std::optional<MaterialTarget> target;
+    if (model) {
+        const auto found = find_material(*model, attach);
+        if (!found) return found.error();
+        target = *found;
     }
-    const auto size = choose_size(arguments, map->image, on_model ? &*target : nullptr);
-    if (!size) return fail(arguments, code_for_input(size.error()), size.error().message);
-    if (!on_model) model = make_plane(*size);
+    const auto size = choose_size(arguments, map->image, target ? &*target : nullptr);
+    if (!size) return size.error();
 
     ConvertOptions options = search_options(arguments, *size);
     options.grid.cell_size = arguments.number("--cell-size");
-    options.attach.material = arguments.text("--material");
+    options.attach = attach;
     const std::string residual = arguments.text("--residual");
     if (residual == "none") options.residual.most_texels = 0;
     else if (residual != "auto") options.residual.most_texels = static_cast<std::size_t>(arguments.integer("--residual"));
@@ -46,12 +49,23 @@ ExitCode run_convert(const Arguments& arguments) {
         line.update(stage, fraction);
         return true;
     };
-    const auto converted = convert_map(*map, *model, options, progress);
-    if (!converted) return fail(arguments, code_for_input(converted.error()), converted.error().message);
+    auto converted = convert_map(*map, model ? *model : make_plane(*size), options, progress);
+    if (!converted) return converted.error();
     line.finish();
-    Report report = describe_found(arguments, *map, *converted, converted->glb.size(), &converted->residual);
-    outputs->front().write = [&](const std::string& path) { return write_file(path, converted->glb); };
-    if (const Status drawn = draw_found(arguments, *map, *converted, report, *outputs, &converted->residual); !drawn)
+    return ConvertedMap{std::move(*map), std::move(*converted)};
+}
+
+ExitCode run_convert(const Arguments& arguments) {
+    auto outputs = name_outputs(arguments, "glb", {arguments.file, arguments.text("--model")});
+    if (!outputs) return fail(arguments, ExitCode::usage, outputs.error().message);
+    const auto model = read_optional_model(arguments);
+    if (!model) return fail(arguments, code_for_input(model.error()), model.error().message);
+    const auto made = convert_file(arguments, *model);
+    if (!made) return fail(arguments, code_for_input(made.error()), made.error().message);
+    const auto& [map, converted] = *made;
+    Report report = describe_found(arguments, map, converted, converted.glb.size(), &converted.residual);
+    outputs->front().write = [&](const std::string& path) { return write_file(path, made->converted.glb); };
+    if (const Status drawn = draw_found(arguments, map, converted, report, *outputs, &converted.residual); !drawn)
         return fail(arguments, code_for_input(drawn.error()), drawn.error().message);
     return write_and_print(arguments, report, *outputs);
 }

@@ -141,26 +141,6 @@ const char* who_carries_the_rest(const Residual* residual) {
                                        : "the core material's normal map carries the rest, and there is no residual";
 }
 
-// What a user should know, a sentence each.
-std::vector<std::string> notes_on(const HeightMap& map, const ConvertStats& stats, const Residual* residual) {
-    std::vector<std::string> notes = map.notes;
-    // Paths that were given up count with what they explained: that number is why they were.
-    const double share = stats.paths == 0 ? stats.traced_explained : stats.explained;
-    if (map.constant)
-        notes.push_back("the map is constant: it holds no path, and the surface is flat");
-    else if (!stats.path_like)
-        notes.push_back("the map is not path-like: the paths explain " + number_text(std::max(share, 0.0)) +
-                        " of its detail; " + who_carries_the_rest(residual));
-    if (residual && residual->is_short)
-        notes.push_back(residual->picture.width > 0 ? "a larger residual normal map does not fit within --max-bytes"
-                                                    : "no residual normal map that helps fits within --max-bytes");
-    if (stats.dropped_paths > 0)
-        notes.push_back(std::to_string(stats.dropped_paths) + " traced paths could not be joined and were left out");
-    if (stats.unrefined != Unrefined::no)
-        notes.push_back("not refined: " + std::string(reason_of(stats.unrefined).sentence));
-    return notes;
-}
-
 Writer text_writer(std::string text) {
     return [text = std::move(text)](const std::string& path) {
         return write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
@@ -212,14 +192,16 @@ ConvertOptions search_options(const Arguments& arguments, Vec2 size) {
     return options;
 }
 
-Result<std::vector<OutputFile>> name_outputs(const Arguments& arguments, const std::string& suffix,
-                                             std::initializer_list<std::string> inputs) {
+Result<std::vector<OutputFile>> name_outputs(const Arguments& arguments, const std::string& suffixes,
+                                             const std::vector<std::string>& inputs) {
     const auto refuse = [&](const char* option, const std::string& what) {
         return Error{ErrorCode::invalid_argument,
                      std::string(option) + " '" + arguments.text(option) + "' does not end in " + what};
     };
-    if (!has_suffix(arguments.text("--output"), suffix))
-        return refuse("--output", "." + suffix + ", the one format written");
+    const std::size_t bar = suffixes.find('|');
+    if (!has_suffix(arguments.text("--output"), suffixes))
+        return refuse("--output", "." + suffixes.substr(0, bar) +
+                                      (bar == std::string::npos ? ", the one format written" : " or ." + suffixes.substr(bar + 1) + ", the formats written"));
     if (arguments.given("--error-map") && !has_suffix(arguments.text("--error-map"), "png|exr|tif|tiff"))
         return refuse("--error-map", ".png for a picture, or in .exr or .tif for numbers");
     if (arguments.given("--report") && !has_suffix(arguments.text("--report"), "html|htm"))
@@ -229,6 +211,25 @@ Result<std::vector<OutputFile>> name_outputs(const Arguments& arguments, const s
         outputs.push_back({option, arguments.text(option), {}});
     if (const Status other = check_outputs(outputs, inputs); !other) return other.error();
     return outputs;
+}
+
+std::vector<std::string> notes_on(const HeightMap& map, const ConvertStats& stats, const Residual* residual) {
+    std::vector<std::string> notes = map.notes;
+    // Paths that were given up count with what they explained: that number is why they were.
+    const double share = stats.paths == 0 ? stats.traced_explained : stats.explained;
+    if (map.constant)
+        notes.push_back("the map is constant: it holds no path, and the surface is flat");
+    else if (!stats.path_like)
+        notes.push_back("the map is not path-like: the paths explain " + number_text(std::max(share, 0.0)) +
+                        " of its detail; " + who_carries_the_rest(residual));
+    if (residual && residual->is_short)
+        notes.push_back(residual->picture.width > 0 ? "a larger residual normal map does not fit within --max-bytes"
+                                                    : "no residual normal map that helps fits within --max-bytes");
+    if (stats.dropped_paths > 0)
+        notes.push_back(std::to_string(stats.dropped_paths) + " traced paths could not be joined and were left out");
+    if (stats.unrefined != Unrefined::no)
+        notes.push_back("not refined: " + std::string(reason_of(stats.unrefined).sentence));
+    return notes;
 }
 
 Report describe_found(const Arguments& arguments, const HeightMap& map, const FoundPattern& found,

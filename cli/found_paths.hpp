@@ -20,14 +20,17 @@ Result<Vec2> choose_size(const Arguments& arguments, const Image& map, const Mat
 // What the user asked of the search for paths; what only convert knows keeps its default.
 ConvertOptions search_options(const Arguments& arguments, Vec2 size);
 
-// The files to write, main one first, still without their writers. Fails with invalid_argument: a suffix that is not
-// written, an output that is an input.
-Result<std::vector<OutputFile>> name_outputs(const Arguments& arguments, const std::string& suffix,
-                                             std::initializer_list<std::string> inputs);
+// The files to write, main one first, still without their writers. `suffixes`: one that the main output may end in, or two with | between.
+// Fails with invalid_argument: a suffix that is not written, an output that is an input.
+Result<std::vector<OutputFile>> name_outputs(const Arguments& arguments, const std::string& suffixes,
+                                             const std::vector<std::string>& inputs);
 
 // What was found and measured. `file_bytes`: size of the main output. `residual`: of a conversion.
 Report describe_found(const Arguments& arguments, const HeightMap& map, const FoundPattern& found,
                       std::size_t file_bytes, const Residual* residual = nullptr);
+
+// What a user should know, a sentence each.
+std::vector<std::string> notes_on(const HeightMap& map, const ConvertStats& stats, const Residual* residual);
 
 // Draws what --error-map and --report ask for into `outputs`, and adds what there is to say about it to `report`.
 Status draw_found(const Arguments& arguments, const HeightMap& map, const FoundPattern& found, Report& report,

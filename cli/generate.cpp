@@ -36,7 +36,7 @@ Status check_options(const Arguments& arguments) {
 // The tile is a uv unit of the model unless --size says otherwise, so that circles stay round.
 Result<Vec2> tile_size(const Arguments& arguments, const Model* model) {
     if (model && !arguments.given("--size")) {
-        const auto target = find_material(*model, {.material = arguments.text("--material")});
+        const auto target = find_material(*model, author_options(arguments).attach);
         if (!target) return target.error();
         return target->metres_per_uv;
     }

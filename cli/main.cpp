@@ -13,6 +13,7 @@ constexpr Command kCommands[] = {
     {"vectorize", "MAP", "turn a height map into a drawing of its paths, for editing by hand", run_vectorize},
     {"pack", "DRAWING", "turn a drawing of paths into a glTF material", run_pack},
     {"generate", "KIND", "make a pattern of scratches, cracks, bricks, rings ... by numbers and a seed", run_generate, generate_help},
+    {"build", "RECIPE", "put several patterns on one model, as a recipe says", run_build},
     {"render", "ASSET", "draw an asset as its shader does, or its height from straight above", run_render},
     {"check", "ASSET", "measure how far an asset lies from the map it was made from", run_check},
     {"info", "FILE", "say what is inside an asset or a height map", run_info},

@@ -46,9 +46,10 @@ std::vector<OptionSpec> make_table() {
         {"--output,-o", "convert", text, "OUT.glb", "", "", 0, 0, "", true, "the asset to write"},
         {"--output,-o", "render", text, "PICTURE", "", "", 0, 0, "", true,
          "the picture to write: .png; with --top also .exr or .tif"},
-        {"--output,-o", "vectorize", text, "PATHS.svg", "", "", 0, 0, "", true, "the drawing to write"},
+        {"--output,-o", "vectorize", text, "PATHS", "", "", 0, 0, "", true, "the drawing to write: .svg, or .json as pack reads it"},
         {"--output,-o", "pack", text, "OUT.glb", "", "", 0, 0, "", true, "the asset to write"},
         {"--output,-o", "generate", text, "OUT", "", "", 0, 0, "", true, "the asset to write, .glb, or the drawing, .svg"},
+        {"--output,-o", "build", text, "OUT.glb", "", "", 0, 0, "", false, "the asset to write, in place of the recipe's output"},
         {"--output,-o", "mesh", text, "MESH.glb", "", "", 0, 0, "", true, "the triangles to write"},
         {"--against", "check", text, "MAP", "", "", 0, 0, "", true, "the height map the asset was made from"},
 
@@ -65,6 +66,7 @@ std::vector<OptionSpec> make_table() {
          "put the pattern on this glTF, glb or obj; without it, on a rectangle"},
         {"--material", "convert pack generate check mesh", text, "NAME", "", "", 0, 0, "", false,
          "which material, where the file has several"},
+        {"--tex-coord", "convert pack generate", integer, "SET", "", "0", 0, 7, "", false, "uv set of the model that the pattern lies in"},
         {"--size", "convert vectorize", extent, "W[xH]", "m", "1", 1e-6, 1e6, "", false,
          "extent of the map along u and v; H follows from the map when left out"},
         {"--size", "pack", extent, "W[xH]", "m", "", 1e-6, 1e6, "", false,
@@ -109,7 +111,7 @@ std::vector<OptionSpec> make_table() {
          "write a page to look at: map, error, paths, the worst places"},
         {"--error-map", "convert vectorize", text, "PICTURE", "", "", 0, 0, "", false,
          "write the height error: .png in colours, red too high and blue too low; .exr or .tif as numbers"},
-        {"--threads", "convert vectorize pack generate check", integer, "COUNT", "", "0", 0, 256, "", false,
+        {"--threads", "convert vectorize pack build generate check", integer, "COUNT", "", "0", 0, 256, "", false,
          "threads to work with, 0 for all cores; the result does not depend on it"},
 
         {"--max-rms", "check", number, "PERCENT", "% of range", "", 0, 100, "", false,
@@ -178,9 +180,9 @@ std::vector<OptionSpec> make_table() {
         {"--threads", "render", integer, "COUNT", "", "0", 0, 256, "", false,
          "threads of --backend reference, 0 for all cores; the picture does not depend on it"},
 
-        {"--format", "convert vectorize pack generate render check info validate mesh", choice, "WHICH", "", "text", 0, 0, "text|json", false,
+        {"--format", "convert vectorize pack build generate render check info validate mesh", choice, "WHICH", "", "text", 0, 0, "text|json", false,
          "how results are printed"},
-        {"--quiet,-q", "convert vectorize pack generate render check info validate mesh", flag, "", "", "", 0, 0, "", false,
+        {"--quiet,-q", "convert vectorize pack build generate render check info validate mesh", flag, "", "", "", 0, 0, "", false,
          "no progress and no text; errors and json stay"},
     };
 }

@@ -10,6 +10,8 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include <burin/json_text.hpp>
+
 namespace burin::cli {
 namespace {
 
@@ -20,13 +22,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
     if (!text.empty() && text.back() == separator) parts.emplace_back();
     return parts;
 }
-
-bool belongs(const OptionSpec& spec, const std::string& command) {
-    const auto names = split(spec.commands, ' ');
-    return std::find(names.begin(), names.end(), command) != names.end();
-}
-
-std::string long_name(const OptionSpec& spec) { return split(spec.name, ',').front(); }
 
 const OptionSpec* find_option(const std::string& command, const std::string& name) {
     for (const OptionSpec& spec : option_table())
@@ -141,31 +136,12 @@ Status check_value(const OptionSpec& spec, const std::string& text) {
     return check_numbers(spec, text);
 }
 
-// Length of the shortest edit between two names, for "did you mean".
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-        }
-    }
-    return row[b.size()];
-}
-
 Error unknown_option(const std::string& command, const std::string& word) {
     const std::string name = word.substr(0, word.find('='));
-    std::string best;
-    std::size_t nearest = 3;
-    for (const OptionSpec& spec : option_table()) {
-        if (!belongs(spec, command)) continue;
-        const std::size_t distance = edit_distance(name, long_name(spec));
-        if (distance < nearest) nearest = distance, best = long_name(spec);
-    }
+    std::vector<std::string> names;
+    for (const OptionSpec& spec : option_table())
+        if (belongs(spec, command)) names.push_back(long_name(spec));
+    const std::string best = nearest_name(name, names);
     const std::string advice = best.empty() ? "`burin " + command + " --help` lists the options" : "did you mean " + best;
     return refuse("unknown option '" + name + "'; " + advice);
 }
@@ -286,6 +262,13 @@ constexpr const char* kExitCodes =
     "            5 not available here; 70 bug in burin\n";
 
 }  // namespace
+
+bool belongs(const OptionSpec& spec, const std::string& command) {
+    const auto names = split(spec.commands, ' ');
+    return std::find(names.begin(), names.end(), command) != names.end();
+}
+
+std::string long_name(const OptionSpec& spec) { return split(spec.name, ',').front(); }
 
 bool Arguments::given(const std::string& name) const { return values.count(name) != 0; }
 

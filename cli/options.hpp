@@ -48,6 +48,10 @@ struct OptionSpec {
 // Every option of every command, in the order --help shows them.
 const std::vector<OptionSpec>& option_table();
 
+// Whether the command takes the option; and the option's long name, with both dashes.
+bool belongs(const OptionSpec& spec, const std::string& command);
+std::string long_name(const OptionSpec& spec);
+
 // Options that would change nothing beside another one, and are therefore refused with it.
 struct OptionConflict {
     const char* command;

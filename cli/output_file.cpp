@@ -18,7 +18,7 @@ void remove_all(const std::vector<OutputFile>& outputs, std::size_t count) {
 
 }  // namespace
 
-Status check_outputs(const std::vector<OutputFile>& outputs, std::initializer_list<std::string> inputs) {
+Status check_outputs(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs) {
     for (const OutputFile& output : outputs)
         for (const std::string& input : inputs) {
             // An error, such as a file that is not there, means that they are not the same.

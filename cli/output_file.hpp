@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -25,7 +24,7 @@ struct OutputFile {
 
 // Fails with invalid_argument when an output is one of the files `inputs`, by whatever name: another path, a link. An
 // empty name stands for none.
-Status check_outputs(const std::vector<OutputFile>& outputs, std::initializer_list<std::string> inputs);
+Status check_outputs(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs);
 
 // The name ends in one of `suffixes` ("exr|tif"), in small letters or capital ones.
 bool has_suffix(const std::string& path, const std::string& suffixes);

@@ -1,6 +1,12 @@
 #include "pattern_file.hpp"
 
+#include <algorithm>
+#include <fstream>
+#include <string_view>
+
 #include <burin/image_io.hpp>
+#include <burin/json_text.hpp>
+#include <burin/pattern_json.hpp>
 #include <burin/svg.hpp>
 
 #include "options.hpp"
@@ -56,14 +62,13 @@ Result<SvgText> text_of(const Arguments& arguments) {
     return text;
 }
 
-}  // namespace
+// By the first letter, past a byte order mark and spaces.
+bool begins_with(std::string_view text, char letter) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    return first != std::string_view::npos && text[first] == letter;
+}
 
-Result<PatternFile> read_pattern_file(const std::string& path, const Arguments& arguments) {
-    const auto bytes = read_file(path, kMaxSvgBytes);
-    if (!bytes) return bytes.error();
-    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    if (!has_suffix(path, "svg") && text.find("<svg") == std::string_view::npos)
-        return Error{ErrorCode::unsupported, "'" + path + "' is no drawing that is known; an SVG file works"};
+Result<PatternFile> read_drawing(std::string_view text, const std::string& path, const Arguments& arguments) {
     SvgOptions options = svg_options(arguments);
     auto rules = rules_of(arguments.text("--meaning"));
     if (!rules) return rules.error();
@@ -74,6 +79,38 @@ Result<PatternFile> read_pattern_file(const std::string& path, const Arguments& 
     auto drawing = read_svg(text, options);
     if (!drawing) return Error{drawing.error().code, path + ": " + drawing.error().message};
     return PatternFile{std::move(drawing->pattern), std::move(drawing->sources), std::move(drawing->notes)};
+}
+
+// A pattern in JSON says itself what the options of drawings say.
+Result<PatternFile> read_json(std::string_view text, const std::string& path, const Arguments& arguments) {
+    for (const char* option : {"--size", "--tolerance", "--wrap", "--stroke", "--fill", "--meaning", "--text", "--font", "--text-path",
+                               "--text-size", "--text-width"})
+        if (arguments.given(option))
+            return Error{ErrorCode::invalid_argument, std::string(option) + " is for drawings in SVG; '" + path + "' is JSON and says it itself"};
+    std::vector<std::string> sources;
+    auto pattern = read_pattern_json(text, path, &sources);
+    if (!pattern) return pattern.error();
+    return PatternFile{std::move(*pattern), std::move(sources), {}};
+}
+
+}  // namespace
+
+bool looks_like_drawing(const std::string& path) {
+    if (has_suffix(path, "json|svg")) return true;
+    std::ifstream file(path, std::ios::binary);
+    char start[256];
+    file.read(start, sizeof start);
+    const std::string_view text(start, static_cast<std::size_t>(file.gcount()));
+    return begins_with(text, '{') || begins_with(text, '<');
+}
+
+Result<PatternFile> read_pattern_file(const std::string& path, const Arguments& arguments) {
+    const auto bytes = read_file(path, std::max<std::uint64_t>(kMaxSvgBytes, kMaxJsonTextBytes));
+    if (!bytes) return bytes.error();
+    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    if (has_suffix(path, "json") || begins_with(text, '{')) return read_json(text, path, arguments);
+    if (has_suffix(path, "svg") || text.find("<svg") != std::string_view::npos) return read_drawing(text, path, arguments);
+    return Error{ErrorCode::unsupported, "'" + path + "' is no drawing that is known; an SVG file or a pattern in JSON works"};
 }
 
 }  // namespace burin::cli

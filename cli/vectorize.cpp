@@ -3,6 +3,7 @@
 
 #include <burin/convert.hpp>
 #include <burin/image_io.hpp>
+#include <burin/pattern_json.hpp>
 #include <burin/svg.hpp>
 
 #include "asset_file.hpp"
@@ -14,7 +15,7 @@
 namespace burin::cli {
 
 ExitCode run_vectorize(const Arguments& arguments) {
-    auto outputs = name_outputs(arguments, "svg", {arguments.file});
+    auto outputs = name_outputs(arguments, "svg|json", {arguments.file});
     if (!outputs) return fail(arguments, ExitCode::usage, outputs.error().message);
     const auto map = read_map(arguments.file, arguments);
     if (!map) return fail(arguments, code_for_input(map.error()), map.error().message);
@@ -29,10 +30,11 @@ ExitCode run_vectorize(const Arguments& arguments) {
     const auto found = find_pattern(*map, search_options(arguments, *size), progress);
     if (!found) return fail(arguments, code_for_input(found.error()), found.error().message);
     line.finish();
-    const std::string svg = write_svg(found->pattern);
-    Report report = describe_found(arguments, *map, *found, svg.size());
+    const bool json = has_suffix(arguments.text("--output"), "json");
+    const std::string text = json ? write_pattern_json(found->pattern) : write_svg(found->pattern);
+    Report report = describe_found(arguments, *map, *found, text.size());
     outputs->front().write = [&](const std::string& path) {
-        return write_file(path, {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()});
+        return write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     };
     if (const Status drawn = draw_found(arguments, *map, *found, report, *outputs); !drawn)
         return fail(arguments, code_for_input(drawn.error()), drawn.error().message);

@@ -1,23 +1,15 @@
 #include <burin/svg.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <utility>
 
+#include "pattern_text.hpp"
+
 namespace burin {
 namespace {
-
-// As many digits as tell a double (a float) from all others.
-template <typename Number>
-std::string exact(Number value) {
-    std::array<char, 32> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return {text.data(), end};
-}
 
 std::string pair_of(double a, double b) { return exact(a) + "," + exact(b); }
 
@@ -33,23 +25,6 @@ std::string spaced(const List& list, const std::function<std::string(const typen
     std::string all;
     for (const auto& item : list) all += (all.empty() ? "" : " ") + text(item);
     return all;
-}
-
-std::string path_data(const std::vector<Element>& elements) {
-    std::string data;
-    if (!elements.empty()) data = "M" + pair_of(elements.front().p0.x, elements.front().p0.y);
-    for (const Element& e : elements) {
-        data += e.kind == ElementKind::line ? " L" : " Q" + pair_of(e.p1.x, e.p1.y) + " ";
-        data += pair_of(e.p2.x, e.p2.y);
-    }
-    const bool returns = !elements.empty() && elements.front().p0 == elements.back().p2;
-    return returns ? data + " Z" : data;
-}
-
-const char* name_of(JoinKind join) { return std::array{"mitre", "round", "bevel"}[static_cast<std::size_t>(join)]; }
-const char* name_of(CapKind cap) { return std::array{"hip", "butt", "round", "taper"}[static_cast<std::size_t>(cap)]; }
-const char* name_of(FacetClass facet) {
-    return std::array{"automatic", "internal", "external"}[static_cast<std::size_t>(facet)];
 }
 
 std::string material_text(const Material& m) {
@@ -70,7 +45,7 @@ std::string header(const Pattern& pattern) {
            attribute("data-burin-version", "1") + attribute("data-burin-size", pair_of(size.x, size.y)) +
            attribute("data-burin-depth", exact(pattern.depth)) +
            attribute("data-burin-base-offset", exact(pattern.base_offset)) +
-           attribute("data-burin-wrap", pattern.wrap == Wrap::repeat ? "repeat" : "clamp") +
+           attribute("data-burin-wrap", name_in(kWrapNames, pattern.wrap)) +
            attribute("data-burin-outer-level", exact(pattern.outer_level)) +
            attribute("data-burin-materials", spaced(pattern.materials, material_text)) + ">\n";
 }
@@ -92,7 +67,7 @@ std::string profile_element(const Profile& profile, std::size_t index) {
     const double width = points.back().b - points.front().b;
     return "    <path" + attribute("id", "profile-" + std::to_string(index)) +
            attribute("data-burin-points", spaced(points, [](const ProfilePoint& p) { return pair_of(p.b, p.h); })) +
-           unusual("facets", spaced(profile.facets, [](const FacetClass& f) { return std::string(name_of(f)); }), "") +
+           unusual("facets", spaced(profile.facets, [](const FacetClass& f) { return std::string(name_in(kFacetNames, f)); }), "") +
            attribute("stroke-width", exact(width / 100.0)) + attribute("d", drawn) + "/>\n";
 }
 
@@ -158,32 +133,31 @@ std::string perturbation_text(const Pattern& pattern, const Path& path) {
     if (path.perturbation == kNoPerturbation) return "";
     const Perturbation& p = pattern.perturbations[path.perturbation];
     std::vector<double> numbers{p.width, p.height, p.wavelength, p.phase};
-    const char* kind = "sine";
     if (p.kind == PerturbationKind::noise) {
-        kind = "noise";
         numbers.back() = p.seed;
         numbers.push_back(p.octaves);
     } else if (p.kind == PerturbationKind::polynomial) {
-        kind = "polynomial";
         numbers.assign(std::begin(p.width_polynomial), std::end(p.width_polynomial));
         numbers.insert(numbers.end(), std::begin(p.height_polynomial), std::end(p.height_polynomial));
     }
-    std::string text = kind;
+    std::string text = name_in(kPerturbationNames, p.kind);
     for (const double number : numbers) text += ' ', text += exact(number);
     return text;
 }
+
+bool returns(const Path& path) { return !path.elements.empty() && path.elements.front().p0 == path.elements.back().p2; }
 
 std::string path_element(const Pattern& pattern, std::size_t index) {
     const Path& path = pattern.paths[index];
     return "    <path" + attribute("id", "path-" + std::to_string(index)) +
            attribute("data-burin-profile", std::to_string(path.profile)) +
            attribute("data-burin-level", exact(path.level)) + unusual("material", std::to_string(path.material), "0") +
-           unusual("closed", path.closed ? "yes" : "no", "no") + unusual("join", name_of(path.join), "mitre") +
-           unusual("start-cap", name_of(path.start_cap), "hip") + unusual("end-cap", name_of(path.end_cap), "hip") +
+           unusual("closed", path.closed ? "yes" : "no", "no") + unusual("join", name_in(kJoinNames, path.join), "mitre") +
+           unusual("start-cap", name_in(kCapNames, path.start_cap), "hip") + unusual("end-cap", name_in(kCapNames, path.end_cap), "hip") +
            unusual("widths", scales(path, &Element::width0, &Element::width1), "") +
            unusual("heights", scales(path, &Element::height0, &Element::height1), "") +
            unusual("perturbation", perturbation_text(pattern, path), "") +
-           stroke(pattern, path) + attribute("d", path_data(path.elements)) + "/>\n";
+           stroke(pattern, path) + attribute("d", path_data_of(path.elements, returns(path))) + "/>\n";
 }
 
 void add_paths(std::string& svg, const Pattern& pattern, PathKind kind, const char* label, const char* color) {

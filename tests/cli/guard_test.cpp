@@ -49,7 +49,7 @@ TEST(ExitCodes, follow_the_kind_of_error) {
 TEST(OptionTable, defaults_are_in_range) {
     const Command commands[] = {{"convert", "MAP", "", nullptr}, {"render", "ASSET", "", nullptr},
                                 {"check", "ASSET", "", nullptr}, {"info", "FILE", "", nullptr},
-                                {"mesh", "ASSET", "", nullptr},  {"pack", "DRAWING", "", nullptr},
+                                {"mesh", "ASSET", "", nullptr},  {"pack", "DRAWING", "", nullptr}, {"build", "RECIPE", "", nullptr},
                                 {"generate", "KIND", "", nullptr},
                                 {"validate", "ASSET", "", nullptr}};
     for (const OptionSpec& spec : option_table()) {

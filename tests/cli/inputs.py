@@ -131,6 +131,11 @@ def flat_maps(side=128):
             for name, surface in surfaces.items()}
 
 
+STROKES = {"units": "mm", "size": 20, "depth": 2, "paths": [
+    {"profile": {"shape": "vee", "width": 1, "height": -1}, "d": "M2 10 H18 M10 2 Q12 8 10 18"}],
+    "regions": [{"outline": "M2 2 H6 V6 H2 Z", "level": -0.5}]}
+RECIPE = {"model": "two_materials.gltf", "patterns": [{"from": "strokes.json", "material": "slate"}, {"from": "groove.png", "material": "brass"}]}
+
 OBJ = """v 0 0 0\nv 2 0 0\nv 2 0 2\nv 0 0 2\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 3/3 2/2\nf 1/1 4/4 3/3\n"""
 
 
@@ -156,6 +161,8 @@ def write_inputs(folder):
         "broken_texture.gltf": broken_texture_gltf().encode(),
         "sky.hdr": radiance_hdr(),
         "plane.obj": OBJ.encode(),
+        "strokes.json": json.dumps(STROKES).encode(),
+        "recipe.json": json.dumps(RECIPE).encode(),
         "broken.gltf": b'{"asset": {"version": "2.0"}, "scenes": [',
         "no_pattern.gltf": plane_gltf(["brass"]).encode(),
         "bad_magic.glb": b"glTX" + struct.pack("<II", 2, 12),

@@ -1,4 +1,5 @@
-// Two patterns that are to be the same, bit by bit, but for the unused control points of lines.
+// Two patterns that are to be the same, bit by bit, but for what has no meaning: control points of lines, parameters that the kind of a
+// perturbation does not use, colours of materials that override nothing, and the order in which perturbations are listed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,6 +37,21 @@ inline void expect_equal(const Profile& a, const Profile& b) {
     EXPECT_EQ(a.facets, b.facets);
 }
 
+inline void expect_equal(const Perturbation& a, const Perturbation& b) {
+    ASSERT_EQ(a.kind, b.kind);
+    if (a.kind == PerturbationKind::polynomial) {
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(a.width_polynomial[i], b.width_polynomial[i]);
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(a.height_polynomial[i], b.height_polynomial[i]);
+        return;
+    }
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.wavelength, b.wavelength);
+    if (a.kind == PerturbationKind::sine) { EXPECT_EQ(a.phase, b.phase); }
+    if (a.kind == PerturbationKind::noise) { EXPECT_EQ(a.seed, b.seed); }
+    if (a.kind == PerturbationKind::noise) { EXPECT_EQ(a.octaves, b.octaves); }
+}
+
 inline void expect_equal(const Pattern& a, const Pattern& b) {
     EXPECT_TRUE(a.size == b.size);
     EXPECT_EQ(a.depth, b.depth);
@@ -47,12 +63,18 @@ inline void expect_equal(const Pattern& a, const Pattern& b) {
     ASSERT_EQ(a.materials.size(), b.materials.size());
     for (std::size_t i = 0; i < a.materials.size(); ++i) {
         EXPECT_EQ(a.materials[i].overrides, b.materials[i].overrides);
+        if (!a.materials[i].overrides) continue;
         for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ(a.materials[i].base_color[c], b.materials[i].base_color[c]);
         EXPECT_EQ(a.materials[i].metallic, b.materials[i].metallic);
         EXPECT_EQ(a.materials[i].roughness, b.materials[i].roughness);
     }
     ASSERT_EQ(a.paths.size(), b.paths.size());
-    for (std::size_t i = 0; i < a.paths.size(); ++i) expect_equal(a.paths[i], b.paths[i]);
+    for (std::size_t i = 0; i < a.paths.size(); ++i) {
+        expect_equal(a.paths[i], b.paths[i]);
+        const bool perturbed = a.paths[i].perturbation != kNoPerturbation;
+        ASSERT_EQ(perturbed, b.paths[i].perturbation != kNoPerturbation);
+        if (perturbed) expect_equal(a.perturbations[a.paths[i].perturbation], b.perturbations[b.paths[i].perturbation]);
+    }
 }
 
 }  // namespace burin::testing
