@@ -139,6 +139,18 @@ RECIPE = {"model": "two_materials.gltf", "patterns": [{"from": "strokes.json", "
 OBJ = """v 0 0 0\nv 2 0 0\nv 2 0 2\nv 0 0 2\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 3/3 2/2\nf 1/1 4/4 3/3\n"""
 
 
+DRAWING = """<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="80mm" viewBox="0 0 100 80">
+<rect class="special" x="10" y="10" width="30" height="20"/>
+<path id="way" d="M10 60 C 30 40 70 40 90 60" fill="none" stroke="#000" stroke-width="2"/>
+<path d="M50 20 H90" fill="none" stroke="#f00" stroke-width="3"/><path id="special" d="M50 30 H90" fill="none" stroke="#000"/>
+<text x="5" y="5">words</text>
+</svg>
+"""
+FONT = """<svg xmlns="http://www.w3.org/2000/svg"><defs><font horiz-adv-x="600"><font-face units-per-em="1000"/>
+<glyph unicode="A" d="M100 0 L300 700 L500 0 M200 250 H400"/></font></defs></svg>
+"""
+
+
 def write_inputs(folder):
     """Writes every input into the folder and returns {name: path}, the placeholders of the cases."""
     side = 96
@@ -160,6 +172,10 @@ def write_inputs(folder):
         "one_material.gltf": plane_gltf(["brass"]).encode(),
         "broken_texture.gltf": broken_texture_gltf().encode(),
         "sky.hdr": radiance_hdr(),
+        "drawing.svg": DRAWING.encode(),
+        "cut.svg": DRAWING[:150].encode(),
+        "empty.svg": b'<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm"/>',
+        "font.svg": FONT.encode(),
         "plane.obj": OBJ.encode(),
         "strokes.json": json.dumps(STROKES).encode(),
         "recipe.json": json.dumps(RECIPE).encode(),
