@@ -5,6 +5,7 @@
 
 #include <burin/generate.hpp>
 #include <burin/image_io.hpp>
+#include <burin/pattern_json.hpp>
 #include <burin/svg.hpp>
 
 #include "asset_file.hpp"
@@ -17,15 +18,15 @@
 namespace burin::cli {
 namespace {
 
-// The formats written, by the end of the name. A further one is a suffix here and a case in run_generate.
-constexpr const char* kDrawings = "svg";
+// The formats written, by the end of the name.
+constexpr const char* kDrawings = "svg|json";
 constexpr const char* kAssets = "glb";
 
 Status check_options(const Arguments& arguments) {
     const std::string output = arguments.text("--output");
     const auto refuse = [](const std::string& message) { return Error{ErrorCode::invalid_argument, message}; };
     if (!has_suffix(output, kDrawings) && !has_suffix(output, kAssets))
-        return refuse("--output '" + output + "' ends in no format that is written; .glb and .svg work");
+        return refuse("--output '" + output + "' ends in no format that is written; .glb, .svg and .json work");
     for (const char* name : {"--model", "--cell-size"})
         if (arguments.given(name) && !has_suffix(output, kAssets))
             return refuse(std::string(name) + " is for assets; --output '" + output + "' is a drawing");
@@ -71,8 +72,8 @@ ExitCode write_drawing(const Arguments& arguments, const Pattern& pattern, doubl
     add_paths(report, pattern);
     add_seconds(report, {{"generate", spent}});
     return write_and_print(arguments, report, {{"--output", arguments.text("--output"), [&](const std::string& path) {
-        const std::string svg = write_svg(pattern);
-        return write_file(path, {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()});
+        const std::string text = has_suffix(path, "json") ? write_pattern_json(pattern) : write_svg(pattern);
+        return write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     }}});
 }
 

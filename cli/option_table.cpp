@@ -48,7 +48,7 @@ std::vector<OptionSpec> make_table() {
          "the picture to write: .png; with --top also .exr or .tif"},
         {"--output,-o", "vectorize", text, "PATHS", "", "", 0, 0, "", true, "the drawing to write: .svg, or .json as pack reads it"},
         {"--output,-o", "pack", text, "OUT.glb", "", "", 0, 0, "", true, "the asset to write"},
-        {"--output,-o", "generate", text, "OUT", "", "", 0, 0, "", true, "the asset to write, .glb, or the drawing, .svg"},
+        {"--output,-o", "generate", text, "OUT", "", "", 0, 0, "", true, "the asset to write, .glb, or the drawing, .svg, or the pattern, .json"},
         {"--output,-o", "build", text, "OUT.glb", "", "", 0, 0, "", false, "the asset to write, in place of the recipe's output"},
         {"--output,-o", "mesh", text, "MESH.glb", "", "", 0, 0, "", true, "the triangles to write"},
         {"--against", "check", text, "MAP", "", "", 0, 0, "", true, "the height map the asset was made from"},
