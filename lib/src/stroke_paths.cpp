@@ -1,0 +1,106 @@
+#include "stroke_paths.hpp"
+
+#include <algorithm>
+
+#include <burin/fit.hpp>
+
+#include "resolve_curve.hpp"
+
+namespace burin::stroking {
+namespace {
+
+// Of what linear widths may differ from those that are needed.
+constexpr double kWidthError = 0.005;
+
+// Width needed at a parameter of an element.
+struct WidthAt {
+    double t = 0.0, width = 0.0;
+};
+
+// A line through widths: least squares, at t = 0 and 1.
+struct WidthLine {
+    double at0 = 0.0, at1 = 0.0;
+    double value(double t) const { return at0 + (at1 - at0) * t; }
+};
+
+WidthLine line_through(std::span<const WidthAt> widths) {
+    double n = 0, t = 0, w = 0, tt = 0, tw = 0;
+    for (const WidthAt& at : widths) n += 1, t += at.t, w += at.width, tt += at.t * at.t, tw += at.t * at.width;
+    const double spread = tt * n - t * t;
+    const double slope = spread > 1e-9 * tt * n ? (tw * n - t * w) / spread : 0.0;
+    const double at0 = (w - slope * t) / n;
+    return {at0, at0 + slope};
+}
+
+// Where to part widths that no line follows: at the greatest jump.
+std::size_t greatest_jump(std::span<const WidthAt> widths) {
+    std::size_t best = widths.size() / 2;
+    double most = 4.0 * std::abs(widths.back().width - widths.front().width) / static_cast<double>(widths.size());
+    for (std::size_t i = 2; i + 1 < widths.size(); ++i)
+        if (const double jump = std::abs(widths[i].width - widths[i - 1].width); jump > most) most = jump, best = i;
+    return best;
+}
+
+// Appends the part of the element between two parameters, in as many pieces as its widths need.
+void append_parts(const Element& element, double t0, double t1, std::span<const WidthAt> widths, double base, std::vector<Element>& out) {
+    const WidthLine line = line_through(widths);
+    const bool follows = std::all_of(widths.begin(), widths.end(), [&](const WidthAt& at) {
+        return std::abs(line.value(at.t) - at.width) <= kWidthError * at.width;
+    });
+    if (follows || widths.size() < 4) {
+        Element part = curve::part(element, t0, t1);
+        const auto within = [&](double t) { return std::max(line.value(t), 0.5 * widths.front().width) / base; };
+        part.width0 = within(t0), part.width1 = within(t1);
+        out.push_back(part);
+        return;
+    }
+    const std::size_t at = greatest_jump(widths);
+    const double middle = 0.5 * (widths[at - 1].t + widths[at].t);
+    if (!(middle > t0 + 1e-6) || !(middle < t1 - 1e-6)) return append_parts(element, t0, t1, widths.subspan(0, 3), base, out);
+    append_parts(element, t0, middle, widths.subspan(0, at), base, out);
+    append_parts(element, middle, t1, widths.subspan(at), base, out);
+}
+
+// Small steps between neighbours are the fit's, not the surface's.
+void even_out(std::vector<Element>& elements, bool closed) {
+    for (std::size_t i = 0; i + (closed ? 0 : 1) < elements.size(); ++i) {
+        Element &a = elements[i], &b = elements[(i + 1) % elements.size()];
+        const double mean = 0.5 * (a.width1 + b.width0);
+        if (std::abs(a.width1 - b.width0) <= 2.0 * kWidthError * mean) a.width1 = b.width0 = mean;
+    }
+}
+
+}  // namespace
+
+Result<Path> path_of(const Piece& piece, const PathOptions& options) {
+    std::vector<Vec2> points;
+    double stretch = 1e300;  // least metres of the pattern per metre in space
+    for (const PiecePoint& point : piece.points) {
+        points.push_back(point.p);
+        stretch = std::min({stretch, length(point.along), point.width / options.width});
+    }
+    FitOptions fit;
+    fit.tolerance = options.tolerance * stretch;
+    fit.corner_reach = 0.0;
+    fit.closed = piece.closed;
+    fit.period = piece.period;
+    fit.pin_start = fit.pin_end = true;
+    const auto fitted = fit_curve(points, fit);
+    if (!fitted) return fitted.error();
+    Path path;
+    path.closed = piece.closed;
+    for (std::size_t i = 0; i < fitted->elements.size(); ++i) {
+        const Element& element = fitted->elements[i];
+        std::vector<WidthAt> widths;
+        for (std::size_t k = fitted->first_point[i]; k < fitted->first_point[i + 1]; ++k) {
+            const double rounds = static_cast<double>(k / points.size());
+            widths.push_back({curve::nearest(element, points[k % points.size()] + piece.period * rounds), piece.points[k % points.size()].width});
+        }
+        if (widths.empty()) widths.push_back({0.0, piece.points[fitted->first_point[i] % points.size()].width});
+        append_parts(element, 0.0, 1.0, widths, options.base, path.elements);
+    }
+    even_out(path.elements, path.closed);
+    return path;
+}
+
+}  // namespace burin::stroking
