@@ -164,12 +164,12 @@ class Judge {
         return truth_.surface_at({place.uv.x * pattern_.size.x, place.uv.y * pattern_.size.y}).height;
     }
 
-    // How far to one side the flank passes half the height; no more than the width.
-    double half_flank(Point3 p, Point3 across) const {
+    // How far to one side the flank comes up to a tenth of the depth; no more than the width.
+    double flank(Point3 p, Point3 across) const {
         double low = 0.0, high = options_.width;
         for (int i = 0; i < 24; ++i) {
             const double middle = 0.5 * (low + high);
-            (height_at(p + across * middle) < 0.5 * options_.height ? low : high) = middle;
+            (height_at(p + across * middle) < 0.1 * options_.height ? low : high) = middle;
         }
         return low;
     }
@@ -199,8 +199,8 @@ class Judge {
             if (std::abs(height_at(place.p + across * (b * options_.width)) - expected) > 0.2 * std::abs(options_.height))
                 ++figures_.missing, figures_.worst_missing = place.p;
         }
-        const double left = half_flank(place.p, across * -1.0), right = half_flank(place.p, across);
-        const double error = std::abs(2.0 * (left + right) / options_.width - 1.0);
+        const double left = flank(place.p, across * -1.0), right = flank(place.p, across);
+        const double error = std::abs((left + right) / (0.9 * options_.width) - 1.0);
         if (error > figures_.width_error) figures_.width_error = error, figures_.worst_width = place.p;
         sum_ += error * error;
         ++widths_;

@@ -54,6 +54,7 @@ StrokeOptions usual(double width) {
     StrokeOptions options;
     options.width = width;
     options.height = -0.3 * width;
+    if (const char* t = std::getenv("BURIN_TOL")) options.tolerance = std::atof(t);
     return options;
 }
 

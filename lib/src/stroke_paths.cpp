@@ -70,6 +70,35 @@ void even_out(std::vector<Element>& elements, bool closed) {
     }
 }
 
+// An element and the points that it was fitted to: [first, last).
+struct Fitted {
+    Element element;
+    std::size_t first = 0, last = 0;
+};
+
+std::vector<Fitted> fitted_elements(const FitResult& fit) {
+    std::vector<Fitted> out;
+    for (std::size_t i = 0; i < fit.elements.size(); ++i) out.push_back({fit.elements[i], fit.first_point[i], fit.first_point[i + 1]});
+    return out;
+}
+
+// Where two fitted lines miss each other, the fit may link them by a jog shorter than the points lie apart, which may lead
+// sideways and would turn the cross-section with it. Its neighbours meet in its middle instead; ends that are pinned stay.
+void drop_jogs(std::vector<Fitted>& row, double shortest, const Piece& piece) {
+    for (std::size_t i = 0; i < row.size() && row.size() > 2;) {
+        const Element& jog = row[i].element;
+        if (length(jog.p2 - jog.p0) >= shortest) {
+            ++i;
+            continue;
+        }
+        const bool first = i == 0, last = i + 1 == row.size();
+        const Vec2 meet = first && !piece.closed ? jog.p0 : last && !piece.closed ? jog.p2 : lerp(jog.p0, jog.p2, 0.5);
+        if (!first || piece.closed) row[first ? row.size() - 1 : i - 1].element.p2 = first ? meet + piece.period : meet;
+        if (!last || piece.closed) row[last ? 0 : i + 1].element.p0 = last ? meet - piece.period : meet;
+        row.erase(row.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+}
+
 }  // namespace
 
 Result<Path> path_of(const Piece& piece, const PathOptions& options) {
@@ -89,14 +118,15 @@ Result<Path> path_of(const Piece& piece, const PathOptions& options) {
     if (!fitted) return fitted.error();
     Path path;
     path.closed = piece.closed;
-    for (std::size_t i = 0; i < fitted->elements.size(); ++i) {
-        const Element& element = fitted->elements[i];
+    std::vector<Fitted> row = fitted_elements(*fitted);
+    drop_jogs(row, 0.5 * options.spacing * stretch, piece);
+    for (const auto& [element, first, last] : row) {
         std::vector<WidthAt> widths;
-        for (std::size_t k = fitted->first_point[i]; k < fitted->first_point[i + 1]; ++k) {
+        for (std::size_t k = first; k < last; ++k) {
             const double rounds = static_cast<double>(k / points.size());
             widths.push_back({curve::nearest(element, points[k % points.size()] + piece.period * rounds), piece.points[k % points.size()].width});
         }
-        if (widths.empty()) widths.push_back({0.0, piece.points[fitted->first_point[i] % points.size()].width});
+        if (widths.empty()) widths.push_back({0.0, piece.points[first % points.size()].width});
         append_parts(element, 0.0, 1.0, widths, options.base, path.elements);
     }
     even_out(path.elements, path.closed);

@@ -7,6 +7,7 @@ namespace burin::stroking {
 
 struct PathOptions {
     double width = 0.0;      // of the stroke, metres in space
+    double spacing = 0.0;    // of points along the trace, metres in space
     double tolerance = 0.0;  // of positions, metres in space
     double base = 0.0;       // of the profile, metres of the pattern: what scales multiply
 };

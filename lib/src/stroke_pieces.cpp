@@ -97,17 +97,18 @@ struct View {
     Vec2 p, along;
     double across = 0.0;  // sum over the way of the pattern's step across, times metres
     double gone = 0.0;    // metres of the way
+    double lean = 0.0;    // greatest, of the way from what is square to the stroke in the pattern: metres along it per metre
     double scale() const { return across / gone; }
 };
 
-void add_side(const Surface& surface, const Sample& sample, double sign, double reach, std::vector<View>& views) {
+void add_side(const Surface& surface, const Sample& sample, double sign, double width, std::vector<View>& views) {
     const Triangle& first = surface.triangles()[sample.place.triangle];
     const Point3 across = cross(first.normal, sample.tangent) * sign;
     double gone = 0.0;
     constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::size_t view = has_pattern(first) ? 0 : none;
     bool begun = false;
-    for (const WayStep& step : straight_way(surface, sample.place, across, sample.tangent, reach)) {
+    for (const WayStep& step : straight_way(surface, sample.place, across, sample.tangent, kReach * 0.5 * width)) {
         const Triangle& t = surface.triangles()[step.triangle];
         if (begun && !step.joined) {
             view = none;
@@ -118,19 +119,24 @@ void add_side(const Surface& surface, const Sample& sample, double sign, double 
         }
         begun = true;
         if (view != none) {
-            views[view].across += std::abs(dot(unit(normal_of(views[view].along)), step_in(t, step.way))) * step.length;
-            views[view].gone += step.length;
+            // What lies beyond half the width says something only where there is nothing else.
+            const double metres = std::clamp(0.5 * width - gone, 1e-6 * step.length, step.length);
+            View& seen = views[view];
+            const Vec2 step_across = step_in(t, step.way), along = unit(seen.along);
+            seen.across += std::abs(dot(normal_of(along), step_across)) * metres;
+            seen.gone += metres;
+            seen.lean = std::max(seen.lean, std::abs(dot(along, step_across)) / length(seen.along));
         }
         gone += step.length;
     }
 }
 
 // The chart under the middle first, if there is a pattern.
-std::vector<View> views_at(const Surface& surface, const Sample& sample, double reach) {
+std::vector<View> views_at(const Surface& surface, const Sample& sample, double width) {
     std::vector<View> views;
     const Triangle& t = surface.triangles()[sample.place.triangle];
     if (has_pattern(t)) views.push_back({t.chart, 0.0, pattern_point(t, sample.place.p), step_in(t, sample.tangent)});
-    for (const double sign : {-1.0, 1.0}) add_side(surface, sample, sign, reach, views);
+    for (const double sign : {-1.0, 1.0}) add_side(surface, sample, sign, width, views);
     std::erase_if(views, [](const View& view) { return !(view.gone > 0.0) || !(view.across > 0.0); });
     return views;
 }
@@ -153,7 +159,7 @@ class Pieceworker {
         if (!trace_.closed && options_.open_caps) extend(samples);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double step = i > 0 ? samples[i].s - samples[i - 1].s : 0.0;
-            std::vector<View> views = views_at(surface_, samples[i], kReach * 0.5 * options_.width);
+            std::vector<View> views = views_at(surface_, samples[i], options_.width);
             const bool middle = !views.empty() && views.front().distance == 0.0;
             if (middle && views.front().chart != chart_ && inside(samples[i].s)) out.borders += std::exchange(chart_, views.front().chart) != kNone;
             if (!has_pattern(surface_.triangles()[samples[i].place.triangle]) && inside(samples[i].s)) out.lost += step;
@@ -190,7 +196,7 @@ class Pieceworker {
     }
 
     void take(const View& view, std::size_t sample, const Sample& at, double step) {
-        const PiecePoint point{at.s, view.p, view.along, view.scale() * options_.width, at.place.p};
+        const PiecePoint point{at.s, view.p, view.along, view.scale() * options_.width, at.place.p, kReach * 0.5 * options_.width * view.lean};
         for (Run& run : runs_)
             if (run.chart == view.chart && run.last + 1 >= sample && follows(run.points.back(), view.p, view.along, std::max(step, 0.05 * options_.spacing))) {
                 if (run.last < sample || run.points.size() == 0) {
@@ -231,7 +237,7 @@ class Pieceworker {
             }
     }
 
-    static PiecePoint moved(const PiecePoint& from, double by) { return {from.s + by, from.p + from.along * by, from.along, from.width, from.place}; }
+    static PiecePoint moved(const PiecePoint& from, double by) { return {from.s + by, from.p + from.along * by, from.along, from.width, from.place, from.skew}; }
 
     // Ends: those of the trace exactly, those at borders a little outside of the chart.
     void finish(Run& run, Pieces& out) const {
@@ -244,8 +250,8 @@ class Pieceworker {
             std::erase_if(points, [&](const PiecePoint& p) { return !trace_.closed && (p.s < -slack || p.s > total_ + slack); });
             // Only a cap reaches into the chart.
             if (points.empty()) points = {piece.starts ? moved(run.points.back(), -run.points.back().s) : moved(run.points.front(), total_ - run.points.front().s)};
-            if (!piece.starts) points.insert(points.begin(), moved(points.front(), -options_.spacing));
-            if (!piece.ends) points.push_back(moved(points.back(), options_.spacing));
+            if (!piece.starts) points.insert(points.begin(), moved(points.front(), -options_.spacing - points.front().skew));
+            if (!piece.ends) points.push_back(moved(points.back(), options_.spacing + points.back().skew));
         }
         out.pieces.push_back(std::move(piece));
     }

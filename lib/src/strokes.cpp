@@ -135,7 +135,7 @@ class Projector {
         if (!profile) return profile.error();
         pattern.profiles = {*profile};
         for (const Piece& piece : pieces_) {
-            auto path = path_of(piece, {options_.width, tolerance_, range_.base()});
+            auto path = path_of(piece, {options_.width, piece_.spacing, tolerance_, range_.base()});
             if (!path) return path.error();
             path->join = options_.join;
             path->start_cap = piece.starts ? options_.cap : CapKind::butt;
