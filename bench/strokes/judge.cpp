@@ -153,8 +153,8 @@ class Judge {
                     const double distance = distance_to(place, strokes_);
                     if (distance > 10.0 * options_.width)
                         ++figures_.echoes;
-                    else
-                        figures_.stray = std::max(figures_.stray, distance);
+                    else if (distance > figures_.stray)
+                        figures_.stray = distance, figures_.worst_stray = place, figures_.stray_path = e.path;
                 }
             }
     }
@@ -189,9 +189,23 @@ class Judge {
         }
     }
 
+    // Whether the surface lies about flat and in one sheet under a width to both sides: else "across" has no length to compare with.
+    bool is_plain(const Mesh::Place& place, Point3 across) const {
+        for (int k = -4; k <= 4; ++k) {
+            const Point3 q = place.p + across * (k * 0.15 * options_.width);
+            const Mesh::Place there = mesh_.nearest(q);
+            if (length(there.p - q) > 0.05 * options_.width || dot(there.normal, place.normal) < 0.95) return false;
+        }
+        return true;
+    }
+
     void look_at(Point3 drawn, Point3 along) {
         const Mesh::Place place = mesh_.nearest(drawn);
         const Point3 across = unit(cross(place.normal, along));
+        if (!is_plain(place, across)) {
+            ++figures_.left_out;
+            return;
+        }
         for (const double b : {-0.4, -0.2, 0.0, 0.2, 0.4}) {
             ++figures_.seen;
             // A fifth of the groove's depth at this place would be a gap or a step to the eye.

@@ -20,9 +20,11 @@ struct StrokeFigures {
     double width_error = 0.0;  // greatest, share of the width
     double width_rms = 0.0;
     int seen = 0, missing = 0;  // places across the drawn lines that were asked, and those where no groove lies
+    int left_out = 0;           // places where the surface across is no plain sheet, which are not asked
     int echoes = 0;             // places of elements that show elsewhere on the body: more than 10 widths off
     int elements = 0;
-    Point3 worst_width, worst_missing;
+    Point3 worst_width, worst_missing, worst_stray;
+    std::uint32_t stray_path = 0;  // the path of the pattern that strays most
 };
 
 // A mesh to ask for nearest places and for the places of a point of the pattern.

@@ -45,7 +45,7 @@ bool add(const Model& model, const Mesh& mesh, const Stroke& stroke, const Strok
     worst.size = figures->size;
     worst.stray = std::max(worst.stray, figures->stray), worst.offset = std::max(worst.offset, figures->offset);
     worst.width_error = std::max(worst.width_error, figures->width_error), worst.width_rms = std::max(worst.width_rms, figures->width_rms);
-    worst.seen += figures->seen, worst.missing += figures->missing, worst.echoes += figures->echoes, worst.elements += figures->elements;
+    worst.seen += figures->seen, worst.missing += figures->missing, worst.left_out += figures->left_out, worst.echoes += figures->echoes, worst.elements += figures->elements;
     ++sum.strokes, sum.pieces += made->stats.pieces, sum.borders += made->stats.borders;
     return true;
 }
@@ -96,7 +96,7 @@ void run_armour(const char* path, int count, unsigned seed) {
         if (!add(*model, mesh, stroke, usual(mesh.size() / 400), sum)) return;
     }
     print("armour", sum);
-    std::printf("armour: %d places of elements show elsewhere too\n", sum.worst.echoes);
+    std::printf("armour: %d places of elements show elsewhere too; %d places with edges across were not asked\n", sum.worst.echoes, sum.worst.left_out);
 }
 
 }  // namespace

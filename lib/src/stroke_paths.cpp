@@ -49,7 +49,9 @@ void append_parts(const Element& element, double t0, double t1, std::span<const 
     });
     if (follows || widths.size() < 4) {
         Element part = curve::part(element, t0, t1);
-        const auto within = [&](double t) { return std::max(line.value(t), 0.5 * widths.front().width) / base; };
+        // Few points make a steep line; beyond them it says nothing.
+        const auto [least, most] = std::minmax_element(widths.begin(), widths.end(), [](const WidthAt& a, const WidthAt& b) { return a.width < b.width; });
+        const auto within = [&](double t) { return std::clamp(line.value(t), least->width, most->width) / base; };
         part.width0 = within(t0), part.width1 = within(t1);
         out.push_back(part);
         return;
@@ -99,6 +101,21 @@ void drop_jogs(std::vector<Fitted>& row, double shortest, const Piece& piece) {
     }
 }
 
+// A quadratic that turns much, or nearly all at one end, where a line says the same, is a hook that the fit made of a kink; a
+// cross-section would swing round in it.
+void straighten_hooks(std::vector<Fitted>& row, double tolerance) {
+    constexpr double kSharp = 0.35;  // radians
+    for (Fitted& fitted : row) {
+        Element& e = fitted.element;
+        if (e.kind != ElementKind::quadratic) continue;
+        const Vec2 chord = e.p2 - e.p0, arm = e.p1 - e.p0;
+        const double share = dot(arm, chord) / dot(chord, chord);
+        if (share > 0.1 && share < 0.9 && curve::turning(e) < kSharp) continue;
+        // The farthest that the arc lies from its chord.
+        if (0.5 * std::abs(cross(unit(chord), arm)) <= 2.0 * tolerance) e.kind = ElementKind::line, e.p1 = lerp(e.p0, e.p2, 0.5);
+    }
+}
+
 }  // namespace
 
 Result<Path> path_of(const Piece& piece, const PathOptions& options) {
@@ -120,6 +137,7 @@ Result<Path> path_of(const Piece& piece, const PathOptions& options) {
     path.closed = piece.closed;
     std::vector<Fitted> row = fitted_elements(*fitted);
     drop_jogs(row, 0.5 * options.spacing * stretch, piece);
+    straighten_hooks(row, fit.tolerance);
     for (const auto& [element, first, last] : row) {
         std::vector<WidthAt> widths;
         for (std::size_t k = first; k < last; ++k) {

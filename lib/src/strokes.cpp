@@ -71,7 +71,7 @@ class Projector {
     Projector(const Surface& surface, std::span<const Stroke> strokes, const StrokeOptions& options)
         : surface_(surface), strokes_(strokes), options_(options), echoes_(surface) {
         trace_.max_distance = options.max_distance > 0.0 ? options.max_distance : 0.05 * surface.size();
-        tolerance_ = options.tolerance > 0.0 ? options.tolerance : std::min(surface.size() / 4000.0, options.width / 50.0);
+        tolerance_ = options.tolerance > 0.0 ? options.tolerance : std::min(surface.size() / 4000.0, options.width / 100.0);
         piece_.width = options.width;
         piece_.spacing = options.width / 8.0;
         piece_.open_caps = options.cap == CapKind::hip || options.cap == CapKind::round;

@@ -56,7 +56,7 @@ struct StrokeOptions {
     // Farthest that a point may lie from the surface, metres; 0: 5 % of the object's size, the diagonal of its box.
     double max_distance = 0.0;
     // How far lines and quadratics may lie from the line on the surface, metres; 0: the lesser of 1/4000 of the object's size
-    // and 1/50 of the width.
+    // and 1/100 of the width.
     double tolerance = 0.0;
 };
 
