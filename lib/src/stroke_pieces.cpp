@@ -97,19 +97,20 @@ struct View {
     Vec2 p, along;
     double across = 0.0;  // sum over the way of the pattern's step across, times metres
     double gone = 0.0;    // metres of the way
-    double lean = 0.0;    // greatest, of the way from what is square to the stroke in the pattern: metres along it per metre
+    double ahead = 0.0, behind = 0.0;  // as a PiecePoint has them
     double scale() const { return across / gone; }
 };
 
 void add_side(const Surface& surface, const Sample& sample, double sign, double width, std::vector<View>& views) {
     const Triangle& first = surface.triangles()[sample.place.triangle];
     const Point3 across = cross(first.normal, sample.tangent) * sign;
-    double gone = 0.0;
+    double gone = 0.0, next = 0.0;
     constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::size_t view = has_pattern(first) ? 0 : none;
     bool begun = false;
     for (const WayStep& step : straight_way(surface, sample.place, across, sample.tangent, kReach * 0.5 * width)) {
         const Triangle& t = surface.triangles()[step.triangle];
+        gone = std::exchange(next, next + step.length);
         if (begun && !step.joined) {
             view = none;
             if (has_pattern(t)) {
@@ -125,9 +126,10 @@ void add_side(const Surface& surface, const Sample& sample, double sign, double 
             const Vec2 step_across = step_in(t, step.way), along = unit(seen.along);
             seen.across += std::abs(dot(normal_of(along), step_across)) * metres;
             seen.gone += metres;
-            seen.lean = std::max(seen.lean, std::abs(dot(along, step_across)) / length(seen.along));
+            if (gone > 0.5 * width) continue;
+            const double lean = dot(along, step_across) / length(seen.along) * std::min(0.5 * width, next);
+            seen.ahead = std::max(seen.ahead, lean), seen.behind = std::max(seen.behind, -lean);
         }
-        gone += step.length;
     }
 }
 
@@ -196,7 +198,7 @@ class Pieceworker {
     }
 
     void take(const View& view, std::size_t sample, const Sample& at, double step) {
-        const PiecePoint point{at.s, view.p, view.along, view.scale() * options_.width, at.place.p, kReach * 0.5 * options_.width * view.lean};
+        const PiecePoint point{at.s, view.p, view.along, view.scale() * options_.width, at.place.p, view.ahead, view.behind};
         for (Run& run : runs_)
             if (run.chart == view.chart && run.last + 1 >= sample && follows(run.points.back(), view.p, view.along, std::max(step, 0.05 * options_.spacing))) {
                 if (run.last < sample || run.points.size() == 0) {
@@ -237,7 +239,7 @@ class Pieceworker {
             }
     }
 
-    static PiecePoint moved(const PiecePoint& from, double by) { return {from.s + by, from.p + from.along * by, from.along, from.width, from.place, from.skew}; }
+    static PiecePoint moved(const PiecePoint& from, double by) { return {from.s + by, from.p + from.along * by, from.along, from.width, from.place, from.ahead, from.behind}; }
 
     // Ends: those of the trace exactly, those at borders a little outside of the chart.
     void finish(Run& run, Pieces& out) const {
@@ -250,8 +252,10 @@ class Pieceworker {
             std::erase_if(points, [&](const PiecePoint& p) { return !trace_.closed && (p.s < -slack || p.s > total_ + slack); });
             // Only a cap reaches into the chart.
             if (points.empty()) points = {piece.starts ? moved(run.points.back(), -run.points.back().s) : moved(run.points.front(), total_ - run.points.front().s)};
-            if (!piece.starts) points.insert(points.begin(), moved(points.front(), -options_.spacing - points.front().skew));
-            if (!piece.ends) points.push_back(moved(points.back(), options_.spacing + points.back().skew));
+            double first = points.front().s, last = points.back().s;
+            for (const PiecePoint& p : points) first = std::min(first, p.s - p.behind), last = std::max(last, p.s + p.ahead);
+            if (!piece.starts) points.insert(points.begin(), moved(points.front(), first - points.front().s - options_.spacing));
+            if (!piece.ends) points.push_back(moved(points.back(), last - points.back().s + options_.spacing));
         }
         out.pieces.push_back(std::move(piece));
     }

@@ -14,7 +14,8 @@ struct PiecePoint {
     Vec2 along;          // the pattern's step per metre of the trace
     double width = 0.0;  // of the stroke, metres of the pattern
     Point3 place;        // of the middle, on the surface
-    double skew = 0.0;   // metres along the trace by which an end square in the pattern leans over half the width in space
+    // Metres along the trace by which an end that is square in the pattern falls short of what lies across in space.
+    double ahead = 0.0, behind = 0.0;
 };
 
 // What of a trace shows in one chart.
