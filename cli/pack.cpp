@@ -11,6 +11,7 @@
 #include "output_file.hpp"
 #include "pattern_file.hpp"
 #include "report.hpp"
+#include "stroke_file.hpp"
 
 namespace burin::cli {
 namespace {
@@ -32,15 +33,20 @@ ExitCode run_pack(const Arguments& arguments) {
     const std::string output = arguments.text("--output");
     if (!has_suffix(output, "glb"))
         return fail(arguments, ExitCode::usage, "--output '" + output + "' does not end in .glb, the one format written");
-    if (const Status other = check_outputs({{"--output", output, {}}}, {arguments.file, arguments.text("--model")}); !other)
+    const bool in_space = arguments.given("--paths-3d");
+    const std::string input = in_space ? arguments.text("--paths-3d") : arguments.file;
+    if (const Status other = check_outputs({{"--output", output, {}}}, {input, arguments.text("--model")}); !other)
         return fail(arguments, ExitCode::usage, other.error().message);
     if (const Status fitting = check_model_options(arguments); !fitting) return fail(arguments, ExitCode::usage, fitting.error().message);
-    const auto file = read_pattern_file(arguments.file, arguments);
-    if (!file) return fail(arguments, code_for_input(file.error()), file.error().message);
-    const auto model = arguments.given("--model") ? read_model(arguments.text("--model")) : Result<Model>(make_plane(file->pattern.size));
+    if (in_space && !arguments.given("--model"))
+        return fail(arguments, ExitCode::usage, "--paths-3d needs --model, the object that the lines are drawn on");
+    auto model = arguments.given("--model") ? read_model(arguments.text("--model")) : Result<Model>(make_plane({1.0, 1.0}));
     if (!model) return fail(arguments, code_for_input(model.error()), model.error().message);
+    const auto file = in_space ? read_stroke_file(*model, arguments) : read_pattern_file(input, arguments);
+    if (!file) return fail(arguments, code_for_input(file.error()), file.error().message);
+    if (!arguments.given("--model")) model = make_plane(file->pattern.size);
     const auto authored = author_asset(file->pattern, *model, author_options(arguments));
-    if (!authored) return fail(arguments, code_for_input(authored.error()), arguments.file + ": " + authored.error().message);
+    if (!authored) return fail(arguments, code_for_input(authored.error()), input + ": " + authored.error().message);
     return write_and_print(arguments, describe(arguments, *authored, *file),
                            {{"--output", output, [&](const std::string& path) { return write_file(path, authored->glb); }}});
 }

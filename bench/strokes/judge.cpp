@@ -169,7 +169,7 @@ class Judge {
         double low = 0.0, high = options_.width;
         for (int i = 0; i < 24; ++i) {
             const double middle = 0.5 * (low + high);
-            (height_at(p + across * middle) < 0.1 * options_.height ? low : high) = middle;
+            (height_at(p + across * middle) < -0.1 * options_.height ? low : high) = middle;
         }
         return low;
     }
@@ -209,8 +209,8 @@ class Judge {
         for (const double b : {-0.4, -0.2, 0.0, 0.2, 0.4}) {
             ++figures_.seen;
             // A fifth of the groove's depth at this place would be a gap or a step to the eye.
-            const double expected = options_.height * (1.0 - 2.0 * std::abs(b));
-            if (std::abs(height_at(place.p + across * (b * options_.width)) - expected) > 0.2 * std::abs(options_.height))
+            const double expected = -options_.height * (1.0 - 2.0 * std::abs(b));
+            if (std::abs(height_at(place.p + across * (b * options_.width)) - expected) > 0.2 * options_.height)
                 ++figures_.missing, figures_.worst_missing = place.p;
         }
         const double left = flank(place.p, across * -1.0), right = flank(place.p, across);

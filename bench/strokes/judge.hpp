@@ -51,7 +51,7 @@ class Mesh {
     double size_ = 0.0;
 };
 
-// `profile` must be "vee" and `height` negative. Samples nearer than `margin` to the ends of open strokes are not asked.
+// Requires: grooves of the profile "vee", width and height given. Samples nearer than `margin` to the ends of open strokes are not asked.
 Result<StrokeFigures> judge_strokes(const Mesh& mesh, const Pattern& pattern, const std::vector<Stroke>& strokes, const StrokeOptions& options, double margin);
 
 }  // namespace burin::bench

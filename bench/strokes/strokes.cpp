@@ -53,8 +53,7 @@ bool add(const Model& model, const Mesh& mesh, const Stroke& stroke, const Strok
 StrokeOptions usual(double width) {
     StrokeOptions options;
     options.width = width;
-    options.height = -0.3 * width;
-    if (const char* t = std::getenv("BURIN_TOL")) options.tolerance = std::atof(t);
+    options.height = 0.3 * width;
     return options;
 }
 

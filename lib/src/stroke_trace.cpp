@@ -228,10 +228,12 @@ class Tracer {
     std::vector<Trace> traces_;
 };
 
-std::string metres(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
+Error too_far(const std::string& name, std::size_t index, const Stroke& stroke, double distance, double allowed) {
+    char text[192];
+    const Point3 p = stroke.points[index];
+    std::snprintf(text, sizeof text, ": point %zu of %zu at (%.4g, %.4g, %.4g) is %.4g m away from the surface, allowed is %.4g m", index + 1, stroke.points.size(), p.x,
+                  p.y, p.z, distance, allowed);
+    return {ErrorCode::invalid_input, name + text};
 }
 
 }  // namespace
@@ -245,9 +247,7 @@ Result<std::vector<Trace>> trace_stroke(const Surface& surface, const Stroke& st
         const double distance = length(p - places.back().p);
         farthest = std::max(farthest, distance);
         if (!(distance <= options.max_distance))
-            return Error{ErrorCode::invalid_input, name + ": point " + std::to_string(i + 1) + " of " + std::to_string(stroke.points.size()) + " at (" +
-                                                       metres(p.x) + ", " + metres(p.y) + ", " + metres(p.z) + ") is " + metres(distance) +
-                                                       " m away from the surface, allowed is " + metres(options.max_distance)};
+            return too_far(name, i, stroke, distance, options.max_distance);
     }
     return Tracer(surface, options).run(places, stroke.points, stroke.closed);
 }

@@ -7,6 +7,7 @@
 
 #include "stroke_echoes.hpp"
 #include "stroke_paths.hpp"
+#include "svg_meaning.hpp"
 
 namespace burin {
 namespace {
@@ -23,20 +24,23 @@ std::string number(double value) {
     return text;
 }
 
-std::string place_text(Point3 p) { return "(" + number(p.x) + ", " + number(p.y) + ", " + number(p.z) + ")"; }
+std::string place_text(Point3 p) {
+    char text[96];
+    std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g)", p.x, p.y, p.z);
+    return text;
+}
 
 std::string stroke_text(const Stroke& stroke, std::size_t index) {
     return "stroke " + std::to_string(index + 1) + (stroke.name.empty() ? "" : " '" + stroke.name + "'");
 }
 
 Status check_options(const StrokeOptions& options) {
-    const auto refuse = [](const std::string& what) { return Error{ErrorCode::invalid_argument, "strokes: " + what}; };
-    if (!(options.width > 0.0) || !std::isfinite(options.width)) return refuse("width is " + number(options.width) + " m; more than 0 works");
-    if (options.height == 0.0 || !std::isfinite(options.height)) return refuse("height is " + number(options.height) + " m; anything but 0 works");
-    if (options.depth != 0.0 && !(options.depth >= std::abs(options.height)))
-        return refuse("depth is " + number(options.depth) + " m, but the profile needs " + number(std::abs(options.height)) + " m");
-    if (!(options.max_distance >= 0.0)) return refuse("max_distance is " + number(options.max_distance) + " m; 0 or more works");
-    if (!(options.tolerance >= 0.0)) return refuse("tolerance is " + number(options.tolerance) + " m; 0 or more works");
+    const auto check = [](const char* name, double value) -> Status {
+        if (value >= 0.0 && std::isfinite(value)) return Done{};
+        return Error{ErrorCode::invalid_argument, std::string("strokes: ") + name + " is " + number(value) + " m; 0 or more works"};
+    };
+    for (const auto& [name, value] : {std::pair{"width", options.width}, {"height", options.height}, {"max_distance", options.max_distance}, {"tolerance", options.tolerance}})
+        if (const Status status = check(name, value); !status) return status;
     return Done{};
 }
 
@@ -68,10 +72,10 @@ struct WidthRange {
 // All strokes on one surface.
 class Projector {
   public:
+    // Requires: options without a 0 that stands for the usual.
     Projector(const Surface& surface, std::span<const Stroke> strokes, const StrokeOptions& options)
         : surface_(surface), strokes_(strokes), options_(options), echoes_(surface) {
-        trace_.max_distance = options.max_distance > 0.0 ? options.max_distance : 0.05 * surface.size();
-        tolerance_ = options.tolerance > 0.0 ? options.tolerance : std::min(surface.size() / 4000.0, options.width / 100.0);
+        trace_.max_distance = options.max_distance;
         piece_.width = options.width;
         piece_.spacing = options.width / 8.0;
         piece_.open_caps = options.cap == CapKind::hip || options.cap == CapKind::round;
@@ -128,14 +132,14 @@ class Projector {
     Status make_pattern() {
         Pattern& pattern = out_.pattern;
         pattern.size = surface_.pattern_size();
-        pattern.depth = options_.depth > 0.0 ? options_.depth : std::abs(options_.height);
-        pattern.base_offset = std::max(options_.height, 0.0);
+        pattern.depth = options_.height;
+        pattern.base_offset = options_.ridge ? options_.height : 0.0;
         pattern.wrap = surface_.repeats() ? Wrap::repeat : Wrap::clamp;
-        const auto profile = make_profile(options_.profile, range_.base(), options_.height);
+        const auto profile = make_profile(options_.profile, range_.base(), options_.ridge ? options_.height : -options_.height);
         if (!profile) return profile.error();
         pattern.profiles = {*profile};
         for (const Piece& piece : pieces_) {
-            auto path = path_of(piece, {options_.width, piece_.spacing, tolerance_, range_.base()});
+            auto path = path_of(piece, {options_.width, piece_.spacing, options_.tolerance, range_.base()});
             if (!path) return path.error();
             path->join = options_.join;
             path->start_cap = piece.starts ? options_.cap : CapKind::butt;
@@ -148,18 +152,36 @@ class Projector {
 
     const Surface& surface_;
     std::span<const Stroke> strokes_;
-    const StrokeOptions& options_;
+    StrokeOptions options_;
     EchoFinder echoes_;
     TraceOptions trace_;
     PieceOptions piece_;
-    double tolerance_ = 0.0;
     WidthRange range_;
     std::vector<Piece> pieces_;
     std::size_t notes_ = 0;
     ProjectedStrokes out_;
 };
 
+StrokeOptions with_usual(StrokeOptions options, double size) {
+    if (options.width == 0.0) options.width = size / 200.0;
+    if (options.height == 0.0) options.height = 0.5 * options.width;
+    if (options.max_distance == 0.0) options.max_distance = 0.05 * size;
+    if (options.tolerance == 0.0) options.tolerance = std::min(size / 4000.0, options.width / 100.0);
+    return options;
+}
+
 }  // namespace
+
+Status mean_strokes(std::string_view text, StrokeOptions& options) {
+    const auto meaning = svg::parse_meaning(text);
+    if (!meaning) return meaning.error();
+    if (meaning->kind != svg::Kind::groove && meaning->kind != svg::Kind::ridge)
+        return Error{ErrorCode::invalid_argument, "'" + std::string(text) + "': strokes on an object are groove or ridge"};
+    options.ridge = meaning->kind == svg::Kind::ridge;
+    options.profile = meaning->profile.value_or(ProfileSpec{});
+    options.height = meaning->height, options.width = meaning->width;
+    return Done{};
+}
 
 Result<ProjectedStrokes> project_strokes(const Model& model, std::span<const Stroke> strokes, const StrokeOptions& options) {
     if (const Status status = check_options(options); !status) return status.error();
@@ -167,7 +189,7 @@ Result<ProjectedStrokes> project_strokes(const Model& model, std::span<const Str
     const auto target = find_material(model, options.attach);
     if (!target) return target.error();
     const Surface surface(model, options.attach, *target);
-    return Projector(surface, strokes, options).run();
+    return Projector(surface, strokes, with_usual(options, surface.size())).run();
 }
 
 }  // namespace burin

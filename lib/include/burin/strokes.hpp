@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <burin/model.hpp>
@@ -47,10 +48,10 @@ Result<std::vector<Stroke>> read_strokes_bytes(std::span<const std::uint8_t> byt
 
 struct StrokeOptions {
     AttachOptions attach;   // which material and uv set the strokes lie on
+    bool ridge = false;     // else grooves
     ProfileSpec profile;    // cross-section of all strokes
-    double width = 0.0;     // metres in space between its ends, > 0
-    double height = 0.0;    // metres, not 0: of a groove's bottom below (< 0) or a ridge's top above the ground
-    double depth = 0.0;     // of the pattern, metres, at least |height|; 0: |height|
+    double height = 0.0;    // metres from the ground to a groove's bottom or a ridge's top; 0: half of the width
+    double width = 0.0;     // metres in space between the profile's ends; 0: 1/200 of the object's size
     JoinKind join = JoinKind::mitre;
     CapKind cap = CapKind::round;  // of the ends that were drawn; those at chart borders are butt
     // Farthest that a point may lie from the surface, metres; 0: 5 % of the object's size, the diagonal of its box.
@@ -59,6 +60,10 @@ struct StrokeOptions {
     // and 1/100 of the width.
     double tolerance = 0.0;
 };
+
+// What strokes mean, in the words that svg.hpp has for strokes of drawings: "groove flat(floor=0.3) 0.5mm 2mm", KIND [PROFILE]
+// [HEIGHT [WIDTH]]; KIND is groove or ridge. What is left out becomes the usual. Fails with invalid_argument: what is not understood.
+Status mean_strokes(std::string_view meaning, StrokeOptions& options);
 
 struct StrokeStats {
     int strokes = 0, pieces = 0;  // drawn, and the paths they became
