@@ -208,9 +208,9 @@ class Judge {
         }
         for (const double b : {-0.4, -0.2, 0.0, 0.2, 0.4}) {
             ++figures_.seen;
-            // A fifth of the groove's depth at this place would be a gap or a step to the eye.
+            // A fifth of the groove's depth would be a gap or a step to the eye.
             const double expected = -options_.height * (1.0 - 2.0 * std::abs(b));
-            if (std::abs(height_at(place.p + across * (b * options_.width)) - expected) > 0.2 * options_.height)
+            if (height_at(place.p + across * (b * options_.width)) > expected + 0.2 * options_.height)
                 ++figures_.missing, figures_.worst_missing = place.p;
         }
         const double left = flank(place.p, across * -1.0), right = flank(place.p, across);

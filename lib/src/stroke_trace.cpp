@@ -135,10 +135,10 @@ class Tracer {
     Tracer(const Surface& surface, const TraceOptions& options) : surface_(surface), walker_(surface), options_(options) {}
 
     std::vector<Trace> run(const std::vector<Place>& places, const std::vector<Point3>& drawn, bool closed) {
-        begin(places.front());
-        for (std::size_t i = 0; i + 1 < places.size(); ++i) link(places[i], drawn[i], places[i + 1], drawn[i + 1], kMostHalvings);
-        if (closed) {
-            link(places.back(), drawn.back(), places.front(), drawn.front(), kMostHalvings);
+        const auto end = [&](std::size_t i) { return End{places[i], drawn[i], is_off(places[i], drawn[i])}; };
+        if (!end(0).off) begin(places.front());
+        for (std::size_t i = 0; i + (closed ? 0 : 1) < places.size(); ++i) add_segment(end(i), end((i + 1) % places.size()));
+        if (closed && !traces_.empty() && length(traces_.back().points.back() - traces_.front().points.front()) <= 1e-12 * surface_.size()) {
             if (traces_.size() == 1)
                 traces_.front().closed = true;
             else
@@ -150,6 +150,39 @@ class Tracer {
 
   private:
     static constexpr int kMostHalvings = 16;
+
+    // A drawn point, its nearest place, and whether it lies off the open side of the mesh.
+    struct End {
+        Place place;
+        Point3 drawn;
+        bool off = false;
+    };
+
+    bool is_off(const Place& place, Point3 drawn) const {
+        return length(drawn - place.p) > 4.0 * options_.fine && surface_.on_open_side(place, 1e-9 * surface_.size());
+    }
+
+    // Of a segment whose ends lie on and off the surface: the last that is on it.
+    End rim(End on, End off) const {
+        for (int i = 0; i < kMostHalvings; ++i) {
+            const Point3 middle = (on.drawn + off.drawn) * 0.5;
+            const Place place = surface_.nearest(middle);
+            const End end{place, middle, is_off(place, middle)};
+            (end.off ? off : on) = end;
+        }
+        return on;
+    }
+
+    void add_segment(const End& a, const End& b) {
+        if (a.off && b.off) return;
+        const End from = a.off ? rim(b, a) : a, to = b.off ? rim(a, b) : b;
+        if (a.off) {
+            const bool again = !traces_.empty();
+            begin(from.place);
+            traces_.back().gaps += again;
+        }
+        link(from.place, from.drawn, to.place, to.drawn, kMostHalvings);
+    }
 
     void begin(const Place& place) {
         traces_.emplace_back();
