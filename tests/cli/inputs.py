@@ -134,6 +134,10 @@ def flat_maps(side=128):
 OBJ = """v 0 0 0\nv 2 0 0\nv 2 0 2\nv 0 0 2\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 3/3 2/2\nf 1/1 4/4 3/3\n"""
 
 
+# A line over the plate of OBJ, a little above it, in edges as Blender writes them; one that is far away; and no line at all.
+LINES = "o groove\nv 0.3 0.01 0.4\nv 1.0 0.01 0.9\nv 1.7 0.01 1.5\nl 2 3\nl 1 2\n"
+
+
 def write_inputs(folder):
     """Writes every input into the folder and returns {name: path}, the placeholders of the cases."""
     side = 96
@@ -153,6 +157,8 @@ def write_inputs(folder):
         "words.png": b"burin reads height maps and this is none\n",
         "two_materials.gltf": plane_gltf(["brass", "slate"]).encode(),
         "one_material.gltf": plane_gltf(["brass"]).encode(),
+        "lines.obj": LINES.encode(),
+        "far_lines.obj": LINES.replace("v 1.0 0.01", "v 1.0 5.0").encode(),
         "broken_texture.gltf": broken_texture_gltf().encode(),
         "sky.hdr": radiance_hdr(),
         "plane.obj": OBJ.encode(),
