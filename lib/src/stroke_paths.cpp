@@ -63,13 +63,27 @@ void append_parts(const Element& element, double t0, double t1, std::span<const 
     append_parts(element, middle, t1, widths.subspan(at), base, out);
 }
 
-// Small steps between neighbours are the fit's, not the surface's.
-void even_out(std::vector<Element>& elements, bool closed) {
-    for (std::size_t i = 0; i + (closed ? 0 : 1) < elements.size(); ++i) {
-        Element &a = elements[i], &b = elements[(i + 1) % elements.size()];
-        const double mean = 0.5 * (a.width1 + b.width0);
-        if (std::abs(a.width1 - b.width0) <= 2.0 * kWidthError * mean) a.width1 = b.width0 = mean;
+// A step of the width between neighbours would be a wall across the groove. A small one is shared by both; for a greater one the
+// last and first bit of them, `reach` long, becomes a ramp.
+void join_widths(std::vector<Element>& elements, bool closed, double reach) {
+    std::vector<Element> out;
+    const auto bend = [&](Element e, double from, double to) {
+        // Share of the element that a ramp takes at each end, and the widths between the ramps.
+        const double share = std::min(0.4, reach / length(e.p2 - e.p0));
+        const auto small = [&](double a, double b) { return std::abs(a - b) <= 1.5 * kWidthError * b; };
+        const double first = small(from, e.width0) ? 0.0 : share, last = small(to, e.width1) ? 1.0 : 1.0 - share;
+        if (first > 0.0) out.push_back(curve::part(e, 0.0, first)), out.back().width0 = from;
+        out.push_back(curve::part(e, first, last));
+        if (first == 0.0) out.back().width0 = from;
+        if (last == 1.0) out.back().width1 = to;
+        if (last < 1.0) out.push_back(curve::part(e, last, 1.0)), out.back().width1 = to;
+    };
+    const std::size_t count = elements.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Element &e = elements[i], &before = elements[(i + count - 1) % count], &after = elements[(i + 1) % count];
+        bend(e, i > 0 || closed ? 0.5 * (before.width1 + e.width0) : e.width0, i + 1 < count || closed ? 0.5 * (e.width1 + after.width0) : e.width1);
     }
+    elements = std::move(out);
 }
 
 // An element and the points that it was fitted to: [first, last).
@@ -147,7 +161,7 @@ Result<Path> path_of(const Piece& piece, const PathOptions& options) {
         if (widths.empty()) widths.push_back({0.0, piece.points[first % points.size()].width});
         append_parts(element, 0.0, 1.0, widths, options.base, path.elements);
     }
-    even_out(path.elements, path.closed);
+    join_widths(path.elements, path.closed, 0.5 * options.spacing * stretch);
     return path;
 }
 
