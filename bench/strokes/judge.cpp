@@ -139,7 +139,7 @@ class Judge {
     StrokeFigures run(double margin) {
         map_elements();
         for (const Stroke& stroke : strokes_) look_across(stroke, margin);
-        figures_.width_rms = std::sqrt(sum_ / std::max(widths_, 1));
+        figures_.width_rms = std::sqrt(sum_ / std::max(figures_.widths, 1));
         return figures_;
     }
 
@@ -217,7 +217,8 @@ class Judge {
         const double error = std::abs((left + right) / (0.9 * options_.width) - 1.0);
         if (error > figures_.width_error) figures_.width_error = error, figures_.worst_width = place.p;
         sum_ += error * error;
-        ++widths_;
+        ++figures_.widths;
+        figures_.wide += error > 0.02;
         figures_.offset = std::max(figures_.offset, length(place.p + across * (0.5 * (right - left)) - drawn));
     }
 
@@ -228,7 +229,6 @@ class Judge {
     const StrokeOptions& options_;
     StrokeFigures figures_;
     double sum_ = 0.0;
-    int widths_ = 0;
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ struct StrokeFigures {
     double offset = 0.0;       // greatest distance of the middle of the groove that is seen from the drawn lines, metres
     double width_error = 0.0;  // greatest, share of the width
     double width_rms = 0.0;
+    int widths = 0, wide = 0;  // places whose width was measured, and those more than 2 % off
     int seen = 0, missing = 0;  // places across the drawn lines that were asked, and those where no groove lies
     int left_out = 0;           // places where the surface across is no plain sheet, which are not asked
     int echoes = 0;             // places of elements that show elsewhere on the body: more than 10 widths off

@@ -11,6 +11,8 @@ namespace {
 constexpr double kReach = 1.25;
 // Nearer than this, in half widths, a chart gets a piece.
 constexpr double kNear = 1.13;
+// Of what is across in space from what is across in the pattern: the tangent, as charts stretched nine to one have it.
+constexpr double kMostLean = 4.0;
 
 struct Sample {
     double s = 0.0;
@@ -127,7 +129,8 @@ void add_side(const Surface& surface, const Sample& sample, double sign, double 
             seen.across += std::abs(dot(normal_of(along), step_across)) * metres;
             seen.gone += metres;
             if (gone > 0.5 * width) continue;
-            const double lean = dot(along, step_across) / length(seen.along) * std::min(0.5 * width, next);
+            // Slivers lean without bound; a piece that followed them would show elsewhere.
+            const double lean = std::clamp(dot(along, step_across) / length(seen.along), -kMostLean, kMostLean) * std::min(0.5 * width, next);
             seen.ahead = std::max(seen.ahead, lean), seen.behind = std::max(seen.behind, -lean);
         }
     }
