@@ -11,8 +11,8 @@ namespace {
 constexpr double kReach = 1.25;
 // Nearer than this, in half widths, a chart gets a piece.
 constexpr double kNear = 1.13;
-// Of what is across in space from what is across in the pattern: the tangent, as charts stretched nine to one have it.
-constexpr double kMostLean = 4.0;
+// Of what is across in space from what is across in the pattern: the tangent, as charts stretched four to one have it.
+constexpr double kMostLean = 2.0;
 
 struct Sample {
     double s = 0.0;
