@@ -30,6 +30,7 @@ struct Command {
     const char* summary;     // one line, what the command does
     ExitCode (*run)(const Arguments&);
     std::string (*more_help)() = nullptr;  // text of --help after the options
+    const char* instead = "";  // an option that may stand in the file's place
 };
 
 ExitCode run_convert(const Arguments& arguments);

@@ -11,7 +11,7 @@ namespace {
 constexpr Command kCommands[] = {
     {"convert", "MAP", "turn a height map into paths with cross-sections in a glTF material", run_convert},
     {"vectorize", "MAP", "turn a height map into a drawing of its paths, for editing by hand", run_vectorize},
-    {"pack", "DRAWING", "turn a drawing of paths into a glTF material", run_pack},
+    {"pack", "DRAWING", "turn a drawing of paths into a glTF material", run_pack, nullptr, "--paths-3d"},
     {"generate", "KIND", "make a pattern of scratches, cracks, bricks, rings ... by numbers and a seed", run_generate, generate_help},
     {"build", "RECIPE", "put several patterns on one model, as a recipe says", run_build},
     {"render", "ASSET", "draw an asset as its shader does, or its height from straight above", run_render},

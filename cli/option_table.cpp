@@ -86,6 +86,11 @@ std::vector<OptionSpec> make_table() {
         {"--wrap", "pack", choice, "WHICH", "", "", 0, 0, "repeat|clamp", false, "whether the pattern tiles; clamp, or as the file says"},
         {"--stroke", "pack", text, "MEANING", "", svg.stroke, 0, 0, "", false,
          "what strokes mean that nothing else is said of: groove, ridge or none, then a profile, a height and a width if wanted, such as 'ridge bead 0.4mm'"},
+        {"--paths-3d", "pack", text, "LINES", "", "", 0, 0, "", false,
+         "in place of a drawing: lines in space on --model, .obj, .gltf or .glb, laid onto its surface as --stroke says, with HEIGHT and "
+         "WIDTH in metres of the model"},
+        {"--max-distance", "pack", number, "METRES", "m", "0", 0, 1e6, "", false,
+         "with --paths-3d: farthest that a point may lie from the surface, 0 for a twentieth of the model's size"},
         {"--fill", "pack", text, "MEANING", "", svg.fill, 0, 0, "", false,
          "what fills mean: sunken, plateau, ground or none, then a profile of the edge, a height and the edge's width if wanted"},
         {"--meaning", "pack", text, "NAME=MEANING;...", "", "", 0, 0, "", false,
@@ -204,6 +209,7 @@ const std::vector<OptionConflict>& option_conflicts() {
         {"render", "--azimuth --elevation --zoom", "--eye",
          "the eye is the camera's place; --target, --center and --fov go with it"},
         {"mesh", "--base", "--open", "an open tile has no bottom; without --open it has"},
+        {"pack", "--size --wrap --fill --meaning", "--paths-3d", "they belong to drawings; the model says how large uv is and whether it tiles"},
         {"render", "--center", "--target", "both name the point the camera looks at; one of them works"},
         {"render", "--fov", "--orthographic", "parallel lines of sight have no angle; --zoom works"},
     };

@@ -190,6 +190,9 @@ Status take_files(const std::vector<std::string>& words, const Command& command,
         if (word != "--") files.push_back(word);
     }
     const std::string usage = "`burin " + std::string(command.name) + " --help` shows how";
+    const bool instead = *command.instead != '\0' && arguments.given(command.instead);
+    if (files.empty() && instead) return Done{};
+    if (instead) return refuse("'" + files[0] + "' does not go with " + command.instead + ": one of them works");
     if (files.empty()) return refuse(std::string("no ") + command.positional + " is given; " + usage);
     if (files.size() > 1)
         return refuse("one " + std::string(command.positional) + " is read at a time, '" + files[1] +

@@ -13,6 +13,7 @@
 #include "output_file.hpp"
 #include "pattern_file.hpp"
 #include "report.hpp"
+#include "stroke_file.hpp"
 
 namespace burin::cli {
 namespace {
@@ -42,13 +43,15 @@ std::string with_source(const PatternFile& file, const std::string& message) {
 }  // namespace
 
 Result<PackedDrawing> pack_file(const Arguments& arguments, const OptionalModel& model) {
-    auto file = read_pattern_file(arguments.file, arguments);
+    const bool in_space = arguments.given("--paths-3d");
+    if (in_space && !model) return Error{ErrorCode::invalid_argument, "--paths-3d needs --model, the object that the lines are drawn on"};
+    auto file = in_space ? read_stroke_file(*model, arguments) : read_pattern_file(arguments.file, arguments);
     if (!file) return file.error();
     const AuthorOptions options = author_options(arguments);
     if (model)
         if (const auto target = find_material(*model, options.attach); !target) return target.error();
     auto authored = author_asset(file->pattern, model ? *model : make_plane(file->pattern.size), options);
-    if (!authored) return Error{authored.error().code, arguments.file + ": " + with_source(*file, authored.error().message)};
+    if (!authored) return Error{authored.error().code, (in_space ? arguments.text("--paths-3d") : arguments.file) + ": " + with_source(*file, authored.error().message)};
     return PackedDrawing{std::move(*file), std::move(*authored)};
 }
 
@@ -56,7 +59,9 @@ ExitCode run_pack(const Arguments& arguments) {
     const std::string output = arguments.text("--output");
     if (!has_suffix(output, "glb"))
         return fail(arguments, ExitCode::usage, "--output '" + output + "' does not end in .glb, the one format written");
-    if (const Status other = check_outputs({{"--output", output, {}}}, {arguments.file, arguments.text("--model")}); !other)
+    const bool in_space = arguments.given("--paths-3d");
+    const std::string input = in_space ? arguments.text("--paths-3d") : arguments.file;
+    if (const Status other = check_outputs({{"--output", output, {}}}, {input, arguments.text("--model")}); !other)
         return fail(arguments, ExitCode::usage, other.error().message);
     const auto model = read_optional_model(arguments);
     if (!model) return fail(arguments, code_for_input(model.error()), model.error().message);

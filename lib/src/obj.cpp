@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "mesh_document.hpp"
+#include "obj_text.hpp"
 
 namespace burin {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 // Ear clipping takes the cube of the corners at worst.
 constexpr std::size_t kMaxCorners = 256;
 using Vec3 = std::array<double, 3>;
+using namespace obj_text;
 
 struct Corner {
     std::uint32_t position = 0;
@@ -105,7 +107,7 @@ class ObjReader {
                          "it is neither glTF nor text; models are read from .gltf, .glb and .obj"};
         while (!text_.empty()) {
             ++line_number_;
-            if (Status status = statement(next_line()); !status.ok()) return status.error();
+            if (Status status = statement(next_line(text_, line_number_)); !status.ok()) return status.error();
         }
         if (faces_ == 0)
             return model_error("OBJ: there is no face, in " + std::to_string(line_number_) + " lines");
@@ -123,29 +125,6 @@ class ObjReader {
   private:
     Error fail(const std::string& message) const {
         return model_error("OBJ: line " + std::to_string(line_number_) + ": " + message);
-    }
-
-    // One logical line: a backslash at the end joins the next one.
-    std::string_view next_line() {
-        std::size_t end = text_.find('\n');
-        while (end != std::string_view::npos && end > 0 &&
-               (text_[end - 1] == '\\' || (end > 1 && text_[end - 1] == '\r' && text_[end - 2] == '\\'))) {
-            ++line_number_;
-            end = text_.find('\n', end + 1);
-        }
-        const std::string_view line = text_.substr(0, end);
-        text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
-        return line;
-    }
-
-    static std::string_view next_word(std::string_view& line) {
-        constexpr std::string_view kBlank = " \t\r\n\\\f\v";
-        const std::size_t begin = line.find_first_not_of(kBlank);
-        if (begin == std::string_view::npos) return line = {};
-        line.remove_prefix(begin);
-        const std::string_view word = line.substr(0, line.find_first_of(kBlank));
-        line.remove_prefix(word.size());
-        return word;
     }
 
     Status statement(std::string_view line) {
@@ -179,28 +158,15 @@ class ObjReader {
                key == "stech" || key == "call";
     }
 
-    static std::string printable(std::string_view word) {
-        std::string text(word.substr(0, 24));
-        for (char& c : text)
-            if (c < 0x20 || c > 0x7e) c = '?';
-        return text;
-    }
-
     template <std::size_t N>
     Status numbers(std::string_view line, std::size_t needed, std::vector<std::array<float, N>>& list) {
         std::array<float, N> values{};
         for (std::size_t i = 0; i < N; ++i) {
-            std::string_view word = next_word(line);
+            const std::string_view word = next_word(line);
             if (word.empty() && i >= needed) break;
-            if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-            double value = 0.0;
-            const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-            // Beyond 1e30 products of coordinates would leave the range of float.
-            const bool tiny = problem == std::errc::result_out_of_range && std::abs(value) < 1.0;
-            if ((problem != std::errc{} && !tiny) || end != word.data() + word.size() ||
-                !(std::abs(value) <= 1e30))
-                return fail("'" + printable(word) + "' is no number within 1e30");
-            values[i] = static_cast<float>(value);
+            const std::optional<double> value = obj_number(word);
+            if (!value) return fail("'" + printable(word) + "' is no number within 1e30");
+            values[i] = static_cast<float>(*value);
         }
         list.push_back(values);
         if (list.size() > kMaxModelVertices)
@@ -209,21 +175,11 @@ class ObjReader {
         return Done{};
     }
 
-    // One of the numbers of "7/3/1": from 1, or from the end when negative.
-    std::optional<std::uint32_t> index(std::string_view text, std::size_t count) const {
-        std::int64_t value = 0;
-        const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (problem != std::errc{} || end != text.data() + text.size() || value == 0) return std::nullopt;
-        if (value < 0) value += static_cast<std::int64_t>(count) + 1;
-        if (value < 1 || value > static_cast<std::int64_t>(count)) return std::nullopt;
-        return static_cast<std::uint32_t>(value - 1);
-    }
-
     Result<Corner> corner(std::string_view word) const {
         Corner result;
         const std::size_t first = word.find('/');
         const std::size_t second = first == std::string_view::npos ? first : word.find('/', first + 1);
-        const auto position = index(word.substr(0, first), positions_.size());
+        const auto position = obj_index(word.substr(0, first), positions_.size());
         if (!position.has_value())
             return fail("corner '" + printable(word) + "': there are " + std::to_string(positions_.size()) +
                         " positions");
@@ -232,14 +188,14 @@ class ObjReader {
         const std::string_view uv =
             word.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
         if (!uv.empty()) {
-            const auto at = index(uv, uvs_.size());
+            const auto at = obj_index(uv, uvs_.size());
             if (!at.has_value())
                 return fail("corner '" + printable(word) + "': there are " + std::to_string(uvs_.size()) +
                             " texture coordinates");
             result.uv = *at;
         }
         if (second == std::string_view::npos) return result;
-        const auto at = index(word.substr(second + 1), normals_.size());
+        const auto at = obj_index(word.substr(second + 1), normals_.size());
         if (!at.has_value())
             return fail("corner '" + printable(word) + "': there are " + std::to_string(normals_.size()) +
                         " normals");

@@ -149,6 +149,8 @@ DRAWING = """<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="80mm"
 FONT = """<svg xmlns="http://www.w3.org/2000/svg"><defs><font horiz-adv-x="600"><font-face units-per-em="1000"/>
 <glyph unicode="A" d="M100 0 L300 700 L500 0 M200 250 H400"/></font></defs></svg>
 """
+# A line over the plate of OBJ, a little above it, in edges as Blender writes them; one that is far away; and no line at all.
+LINES = "o groove\nv 0.3 0.01 0.4\nv 1.0 0.01 0.9\nv 1.7 0.01 1.5\nl 2 3\nl 1 2\n"
 
 
 def write_inputs(folder):
@@ -170,6 +172,8 @@ def write_inputs(folder):
         "words.png": b"burin reads height maps and this is none\n",
         "two_materials.gltf": plane_gltf(["brass", "slate"]).encode(),
         "one_material.gltf": plane_gltf(["brass"]).encode(),
+        "lines.obj": LINES.encode(),
+        "far_lines.obj": LINES.replace("v 1.0 0.01", "v 1.0 5.0").encode(),
         "broken_texture.gltf": broken_texture_gltf().encode(),
         "sky.hdr": radiance_hdr(),
         "drawing.svg": DRAWING.encode(),
