@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every drawing of shared/data/svg packs, validates and renders; the single-stroke fonts engrave a line; damaged drawings give an answer
+"""Every drawing of samples and of shared/data/svg packs, validates and renders; the single-stroke fonts engrave a line; damaged drawings give an answer
 or an error that names the place."""
 
 import argparse
@@ -22,7 +22,9 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--burin", required=True)
     parser.add_argument("--shared", required=True)
+    parser.add_argument("--samples", required=True)
     arguments = parser.parse_args()
+    own = sorted(glob.glob(os.path.join(arguments.samples, "*.svg")))
     drawings = sorted(glob.glob(os.path.join(arguments.shared, "svg", "*.svg")))
     if not drawings:
         harness.skip("no drawings in " + arguments.shared)
@@ -32,7 +34,8 @@ def main():
         page = os.path.join(folder, "page.svg")
         with open(page, "w", encoding="utf-8") as file:
             file.write('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 60"><path id="way" d="M5 40Q100 10 195 40" stroke="red"/></svg>')
-        for drawing in drawings:
+        verdicts.expect(len(own) > 0, "there are drawings of burin's own")
+        for drawing in own + drawings:
             if os.path.basename(drawing).startswith("hershey"):
                 pack(verdicts, arguments.burin, page, output, "--text", "Burin 2026", "--font", drawing, "--text-path", "way")
             else:
