@@ -2,8 +2,8 @@
 //
 //     bench_pack [LARGEST]        numbers of elements are 10^3, 10^4, ... up to LARGEST, 10^6 unless given
 //
-// Elements are short scratches that lie apart, with isolated ends: all lines, or lines and quadratics in turn. The format holds
-// BURIN_MAX_ELEMENT_TEXELS in one pattern, so that more of them are several patterns, as a pattern that is split would be. Patterns are
+// Elements are short scratches that lie apart, with isolated ends: all lines, or lines and quadratics in turn. All are in one
+// pattern, which is wide beyond BURIN_MAX_NARROW_ELEMENT_TEXELS; there they are also split into patterns that are not, which are
 // packed side by side, one on each core. Tables in Markdown go to standard output.
 #include <algorithm>
 #include <atomic>
@@ -25,7 +25,7 @@ namespace {
 
 using namespace burin;
 
-constexpr int kMostPerPattern = 40000;  // two thirds of the texels where every second element takes two
+constexpr int kMostPerNarrow = 40000;  // 60000 texels where every second element takes two
 
 Element make_scratch(Vec2 from, Vec2 way, bool curved) {
     Element e;
@@ -92,8 +92,7 @@ struct Times {
     }
 };
 
-void measure(int count, bool mixed) {
-    const int patterns = (count + kMostPerPattern - 1) / kMostPerPattern;
+void measure(int count, bool mixed, int patterns) {
     std::vector<ResolvedPattern> resolved;
     const double resolving = seconds_of([&] {
         for (int i = 0; i < patterns; ++i) resolved.push_back(need(resolve_pattern(scratches(count / patterns, mixed, unsigned(i)))));
@@ -131,6 +130,9 @@ int main(int argc, char** argv) {
                 "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
                 std::thread::hardware_concurrency());
     for (const bool mixed : {false, true})
-        for (int count = 1000; count <= largest; count *= 10) measure(count, mixed);
+        for (int count = 1000; count <= largest; count *= 10) {
+            measure(count, mixed, 1);
+            if (count > kMostPerNarrow) measure(count, mixed, (count + kMostPerNarrow - 1) / kMostPerNarrow);
+        }
     return 0;
 }
