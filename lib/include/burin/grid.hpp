@@ -71,8 +71,8 @@ std::size_t grid_bytes(const CellGrid& grid, bool wide = false);
 // lengths and widths; bytes and references are counted, and cells made larger or smaller as they ask.
 // Requires: the result of resolve_pattern (or of unpack_textures).
 // Ensures: as above; the same bytes for any thread count. Without cell_size, grid_bytes(result) <= max_bytes, and the different
-// lists of a wide pattern take no more than the BURIN_MAX_LIST_TEXELS that a file holds, unless no such size keeps to 63 references per cell: then cells are as large as these allow, and grid_bytes tells by how much
-// the budget is missed.
+// lists of a wide pattern (format/SPECIFICATION.md) take at most BURIN_MAX_LIST_TEXELS, unless no such size keeps to 63 references
+// per cell: then cells are as large as these allow, and grid_bytes tells by how much the budget is missed.
 // Fails: invalid_argument for an option out of range; limit_exceeded when a cell needs more than
 // BURIN_MAX_REFS_PER_CELL references at any allowed size, naming cell, count and the size that would fit, and when an
 // element reaches around the tile.
