@@ -112,7 +112,7 @@ void measure(int count, bool mixed, int patterns) {
         processor.tries.push_back(double(std::clock() - before) / CLOCKS_PER_SEC);
     }
     for (const PackedTextures& textures : packed) bytes += 4 * (textures.grid.size() + textures.data.size());
-    std::printf("| %s | %zu | %d | %.1f | %.2f | %.3f | %.4f | %.4f | %.4f | %.2f |\n", mixed ? "lines and quadratics" : "lines", elements, patterns,
+    std::printf("| %s | %zu | %d | %d | %.1f | %.2f | %.3f | %.4f | %.4f | %.4f | %.2f |\n", mixed ? "lines and quadratics" : "lines", elements, patterns, packed[0].sections.wide() ? 32 : 16,
                 double(bytes) / double(elements), resolving, gridding, packing.least(), packing.median(), processor.least(), processor.least() / double(elements) * 1e6);
     std::fflush(stdout);
 }
@@ -126,8 +126,8 @@ int main(int argc, char** argv) {
         return 2;
     }
     std::printf("## Pack\n\nSeconds on %u cores; of pack the least and the median of seven tries, and the least that all cores together worked on it.\n\n"
-                "| elements | number | patterns | bytes per element | resolve s | grid s | pack s, least | median | of all cores | us per element |\n"
-                "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+                "| elements | number | patterns | bits of a reference | bytes per element | resolve s | grid s | pack s, least | median | of all cores | us per element |\n"
+                "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
                 std::thread::hardware_concurrency());
     for (const bool mixed : {false, true})
         for (int count = 1000; count <= largest; count *= 10) {
