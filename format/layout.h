@@ -9,11 +9,13 @@
 #define BURIN_MAX_TEXTURE_SIDE 4096
 #define BURIN_MAX_REFS_PER_CELL 63
 #define BURIN_MAX_PROFILE_POINTS 32
-#define BURIN_MAX_ELEMENT_TEXELS 65536
+#define BURIN_MAX_ELEMENT_TEXELS 4194304
+#define BURIN_MAX_NARROW_ELEMENT_TEXELS 65536  // with more a pattern is wide, see lists
 #define BURIN_MAX_STYLES 4096
 #define BURIN_MAX_PROFILE_TEXELS 65536
 #define BURIN_MAX_MATERIALS 512
-#define BURIN_MAX_LIST_TEXELS 131072
+#define BURIN_MAX_LIST_TEXELS 1048576
+#define BURIN_MAX_NARROW_LIST_TEXELS 131072
 #define BURIN_MAX_FUNCTION_TEXELS 65536
 #define BURIN_MAX_OCTAVES 8
 #define BURIN_MAX_NOISE_PERIOD 65536
@@ -22,8 +24,8 @@
 #define BURIN_MAX_LENGTH 1.0e9
 
 // ---- grid texture: RG32UI, one texel per cell, row-major, cell (0,0) at uv (0,0) --------------------------
-// x: bits 0-19 first reference (index of a 16-bit reference, see lists; 0 when count is 0), 20-25 count, 26-29 skip, or
-//    start with STEP, 30-31 flags
+// x: bits 0-19 first reference (its index, or its texel in the list section of a wide pattern, see lists; 0 when count is 0),
+//    20-25 count, 26-29 skip, or start with STEP, 30-31 flags
 // y: bits 0-15 level at the cell's start (UNORM16 of the height range), 16-23 highest, 24-31 lowest (UNORM8)
 // skip s: every cell (i + dx, j + dy) with |dx| <= s and |dy| <= s lists nothing and has this cell's level (indices wrap
 // when the pattern repeats); 0 where the cell lists something. start: below.
@@ -108,7 +110,9 @@
 #define BURIN_POINTS_PER_TEXEL 4
 // Lists: 16-bit references, eight to a texel, low half first. A reference is the element's texel, counted from the
 // start of the element section.
+// A pattern with more than MAX_NARROW_ELEMENT_TEXELS is WIDE: references of 32 bits, four to a texel, every list from a texel on.
 #define BURIN_REFS_PER_TEXEL 8
+#define BURIN_WIDE_REFS_PER_TEXEL 4
 // Function, head texel: x: 0-1 kind, 2-5 octaves (noise; else 0)    y: amplitude of width 0-15, of height 16-31, SNORM16
 //                       z: seed (noise; else 0)                      w: period (noise; 0: none, else 0)
 // Only a polynomial has two more texels, c0 to c3 of width and of height as float32 bits; its y is 0.

@@ -2,8 +2,8 @@
 //
 //     bench_pack [LARGEST]        numbers of elements are 10^3, 10^4, ... up to LARGEST, 10^6 unless given
 //
-// Elements are short scratches that lie apart, with isolated ends: all lines, or lines and quadratics in turn. The format holds
-// BURIN_MAX_ELEMENT_TEXELS in one pattern, so that more of them are several patterns, as a pattern that is split would be. Patterns are
+// Elements are short scratches that lie apart, with isolated ends: all lines, or lines and quadratics in turn. All are in one
+// pattern, which is wide beyond BURIN_MAX_NARROW_ELEMENT_TEXELS; there they are also split into patterns that are not, which are
 // packed side by side, one on each core. Tables in Markdown go to standard output.
 #include <algorithm>
 #include <atomic>
@@ -25,7 +25,7 @@ namespace {
 
 using namespace burin;
 
-constexpr int kMostPerPattern = 40000;  // two thirds of the texels where every second element takes two
+constexpr int kMostPerNarrow = 40000;  // 60000 texels where every second element takes two
 
 Element make_scratch(Vec2 from, Vec2 way, bool curved) {
     Element e;
@@ -92,8 +92,7 @@ struct Times {
     }
 };
 
-void measure(int count, bool mixed) {
-    const int patterns = (count + kMostPerPattern - 1) / kMostPerPattern;
+void measure(int count, bool mixed, int patterns) {
     std::vector<ResolvedPattern> resolved;
     const double resolving = seconds_of([&] {
         for (int i = 0; i < patterns; ++i) resolved.push_back(need(resolve_pattern(scratches(count / patterns, mixed, unsigned(i)))));
@@ -113,7 +112,7 @@ void measure(int count, bool mixed) {
         processor.tries.push_back(double(std::clock() - before) / CLOCKS_PER_SEC);
     }
     for (const PackedTextures& textures : packed) bytes += 4 * (textures.grid.size() + textures.data.size());
-    std::printf("| %s | %zu | %d | %.1f | %.2f | %.3f | %.4f | %.4f | %.4f | %.2f |\n", mixed ? "lines and quadratics" : "lines", elements, patterns,
+    std::printf("| %s | %zu | %d | %d | %.1f | %.2f | %.3f | %.4f | %.4f | %.4f | %.2f |\n", mixed ? "lines and quadratics" : "lines", elements, patterns, packed[0].sections.wide() ? 32 : 16,
                 double(bytes) / double(elements), resolving, gridding, packing.least(), packing.median(), processor.least(), processor.least() / double(elements) * 1e6);
     std::fflush(stdout);
 }
@@ -127,10 +126,13 @@ int main(int argc, char** argv) {
         return 2;
     }
     std::printf("## Pack\n\nSeconds on %u cores; of pack the least and the median of seven tries, and the least that all cores together worked on it.\n\n"
-                "| elements | number | patterns | bytes per element | resolve s | grid s | pack s, least | median | of all cores | us per element |\n"
-                "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+                "| elements | number | patterns | bits of a reference | bytes per element | resolve s | grid s | pack s, least | median | of all cores | us per element |\n"
+                "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
                 std::thread::hardware_concurrency());
     for (const bool mixed : {false, true})
-        for (int count = 1000; count <= largest; count *= 10) measure(count, mixed);
+        for (int count = 1000; count <= largest; count *= 10) {
+            measure(count, mixed, 1);
+            if (count > kMostPerNarrow) measure(count, mixed, (count + kMostPerNarrow - 1) / kMostPerNarrow);
+        }
     return 0;
 }

@@ -16,7 +16,7 @@ TABLES = {
     "geometry": ("geometry", "Time at equal error", 2), "geometry memory": ("geometry", "Memory at equal error", 1),
     "reference": ("reference", "The reference renderer", 2), "shares": ("shares", "Shares of footprints", 1),
     "atrium": ("atrium", "Atrium", 1), "tables": ("tables", "The tables of the papers", 2),
-    "memory": ("memory", "Memory", 1), "grid": ("grid", "Cell size", 3), "pack": ("pack", "Pack", 2),
+    "memory": ("memory", "Memory", 1), "grid": ("grid", "Cell size", 3), "pack": ("pack", "Pack", 3),
 }
 # [2008] table 1, figures 10 left and right: seconds and kilobytes of its own method, of ray-traced geometry and of relief mapping.
 PAPER_2008 = {"parallel_grooves": ("10 left", 26, 16, 95, 656, 0.043, 256), "crossing_scratches": ("10 right", 27, 19, 114, 53000, 0.029, 4096)}

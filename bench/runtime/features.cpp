@@ -1,7 +1,7 @@
 // Question: does a picture cost more when the pattern holds more features, as many of them being seen?
 //
-// Grooves of random direction, one to each square of a lattice, so that the density stays. A pattern holds 65536 texels of
-// elements at most; a million grooves are a sheet of 4 x 4 materials with a pattern of 62500 each.
+// Grooves of random direction, one to each square of a lattice, so that the density stays. With more than 65536 texels of elements
+// a pattern is wide; a million grooves are one wide pattern, and a sheet of 4 x 4 materials with a pattern of 62500 each that is not.
 #include <cmath>
 #include <cstdio>
 
@@ -77,10 +77,10 @@ void ask_features(const Settings& settings) {
     struct Row {
         int side, tiles;
     };
-    constexpr Row kRows[] = {{10, 1}, {32, 1}, {100, 1}, {250, 1}, {250, 4}};
+    constexpr Row kRows[] = {{10, 1}, {32, 1}, {100, 1}, {250, 1}, {300, 1}, {1000, 1}, {250, 4}};
     double first = 0.0;
     for (const Row& row : kRows) {
-        if (settings.quick && row.tiles > 1) continue;
+        if (settings.quick && row.side * row.tiles > 300) continue;
         PlaneView view;
         view.width = settings.quick ? 256 : 640;
         view.height = settings.quick ? 192 : 480;

@@ -20,15 +20,17 @@ struct GridView {
             cell_texel(textures, static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(cols) +
                                      static_cast<std::uint32_t>(i)));
     }
-    std::uint32_t references() const { return textures.sections.list_texels * BURIN_REFS_PER_TEXEL; }
-    bool list_inside(const CellCode& c) const { return c.first_reference + c.count <= references(); }
+    std::uint32_t references() const { return textures.sections.references(); }
+    std::uint32_t begin_of(const CellCode& c) const { return list_begin(textures.sections, c); }
+    std::uint32_t end_of(const CellCode& c) const { return begin_of(c) + c.count; }
+    bool list_inside(const CellCode& c) const { return end_of(c) <= references(); }
 };
 
 void check_cell(const GridView& grid, const CellCode& c, const std::string& place, Reporter& reporter) {
     if (!grid.list_inside(c)) {
         reporter.report(
             3001,
-            "list ends at reference " + text(c.first_reference + c.count) + " of " + text(grid.references()),
+            "list ends at reference " + text(grid.end_of(c)) + " of " + text(grid.references()),
             place);
     }
     if (c.count == 0 && c.first_reference != 0) {
@@ -98,7 +100,7 @@ std::vector<const ElementCode*> check_list(const GridView& grid, const CellCode&
     std::vector<const ElementCode*> list;
     std::uint32_t previous = 0;
     for (std::uint32_t k = 0; k < c.count; ++k) {
-        const std::uint32_t reference = list_reference(grid.textures, c.first_reference + k);
+        const std::uint32_t reference = list_reference(grid.textures, grid.begin_of(c) + k);
         const bool is_start =
             reference < data.element_at.size() && data.element_at[reference] != DecodedData::kNone;
         if (is_start) list.push_back(&data.elements[data.element_at[reference]]);
@@ -219,7 +221,7 @@ void check_grid(const PackedTextures& textures, const PathDetail& detail, const 
             const auto [known, first] =
                 lists.try_emplace(c.first_reference << BURIN_CELL_COUNT_BITS | c.count);
             if (first) {
-                std::fill_n(covered.begin() + c.first_reference, c.count, true);
+                std::fill_n(covered.begin() + grid.begin_of(c), c.count, true);
                 known->second = traits_of(check_list(grid, c, data, place, reporter), data);
             }
             check_flags(c, known->second, place, reporter);

@@ -33,8 +33,8 @@ int cell_along(double uv, int cells, bool repeat) {
 }
 
 bool lists_element(const PackedTextures& textures, const CellCode& c, std::uint32_t texel) {
-    const std::uint32_t end = textures.sections.list_texels * BURIN_REFS_PER_TEXEL;
-    for (std::uint32_t k = c.first_reference; k < c.first_reference + c.count && k < end; ++k) {
+    const std::uint32_t begin = list_begin(textures.sections, c), end = std::min(begin + c.count, textures.sections.references());
+    for (std::uint32_t k = begin; k < end; ++k) {
         if (list_reference(textures, k) == texel) return true;
     }
     return false;

@@ -194,6 +194,10 @@ void read_sections(const json& data, PathDetail& detail, Reporter& reporter) {
             complete = false;
         }
     }
+    if (complete && detail.sections.list_texels > detail.sections.max_list_texels()) {
+        reporter.report(2015, "lists is " + std::to_string(detail.sections.list_texels) + ", range [0, " +
+                                  std::to_string(detail.sections.max_list_texels()) + "] where the pattern is not wide", "/data/lists");
+    }
     const std::int64_t texels = std::int64_t{detail.data_width} * detail.data_height;
     if (complete && texels > 0 && detail.sections.end() > texels) {
         reporter.report(2014,

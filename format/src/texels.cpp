@@ -32,7 +32,13 @@ static_assert(kFirst + kCount + kSkip + 2 == 32);
 static_assert(kCoordinate + kAngle == 32);
 static_assert(16 + kPoints + 1 + kMaterial == 32);
 static_assert(mask(kCount) == BURIN_MAX_REFS_PER_CELL);
-static_assert(mask(kFirst) + 1 == BURIN_MAX_LIST_TEXELS * BURIN_REFS_PER_TEXEL);
+static_assert(mask(kFirst) + 1 == BURIN_MAX_NARROW_LIST_TEXELS * BURIN_REFS_PER_TEXEL);
+static_assert(mask(kFirst) + 1 == BURIN_MAX_LIST_TEXELS);
+static_assert(mask(16) + 1 == BURIN_MAX_NARROW_ELEMENT_TEXELS && 32 * BURIN_WIDE_REFS_PER_TEXEL == 16 * BURIN_REFS_PER_TEXEL);
+// All sections at their longest fit one texture, and indices of references fit 32 bits with a count beside them.
+static_assert(BURIN_MAX_ELEMENT_TEXELS + BURIN_MAX_STYLES + BURIN_MAX_PROFILE_TEXELS + BURIN_MAX_MATERIALS + BURIN_MAX_LIST_TEXELS +
+                  BURIN_MAX_FUNCTION_TEXELS <= BURIN_MAX_TEXTURE_SIDE * BURIN_MAX_TEXTURE_SIDE);
+static_assert(std::uint64_t{BURIN_MAX_LIST_TEXELS} * BURIN_WIDE_REFS_PER_TEXEL << kCount <= std::uint64_t{1} << 32);
 static_assert(mask(kMaterial) + 1 == BURIN_MAX_MATERIALS && mask(12) + 1 == BURIN_MAX_STYLES);
 
 std::uint32_t end_kind(const EndCode& end) { return place(end.priority, 0, 2) | place(end.shape, 2, 2); }
@@ -227,7 +233,20 @@ Texel data_texel(const PackedTextures& textures, std::uint32_t index) {
     return {textures.data[at], textures.data[at + 1], textures.data[at + 2], textures.data[at + 3]};
 }
 
+std::uint32_t list_begin(const Sections& sections, const CellCode& cell) {
+    return cell.first_reference * (sections.wide() ? BURIN_WIDE_REFS_PER_TEXEL : 1u);
+}
+
+std::uint32_t first_reference_code(const Sections& sections, std::uint32_t index) {
+    return index / (sections.wide() ? BURIN_WIDE_REFS_PER_TEXEL : 1u);
+}
+
 std::uint32_t list_reference(const PackedTextures& textures, std::uint32_t index) {
+    if (textures.sections.wide()) {
+        const std::size_t at = std::size_t{4} * textures.sections.lists_begin() + index;
+        assert(at < textures.data.size());
+        return textures.data[at];
+    }
     const std::size_t word = std::size_t{4} * textures.sections.lists_begin() + index / 2;
     assert(word < textures.data.size());
     return field(textures.data[word], 16 * (index & 1u), 16);

@@ -52,7 +52,7 @@ bool check_sizes(const PackedTextures& t, const PathDetail& d, Reporter& reporte
     const Sections& s = t.sections;
     const bool limits = s.element_texels <= BURIN_MAX_ELEMENT_TEXELS && s.style_texels <= BURIN_MAX_STYLES &&
                         s.profile_texels <= BURIN_MAX_PROFILE_TEXELS && s.material_texels >= 1 &&
-                        s.material_texels <= BURIN_MAX_MATERIALS && s.list_texels <= BURIN_MAX_LIST_TEXELS &&
+                        s.material_texels <= BURIN_MAX_MATERIALS && s.list_texels <= s.max_list_texels() &&
                         s.function_texels <= BURIN_MAX_FUNCTION_TEXELS;
     const bool equal =
         s.element_texels == d.sections.element_texels && s.style_texels == d.sections.style_texels &&

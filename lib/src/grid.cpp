@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "grid_internal.hpp"
 #include "layout.h"
@@ -16,6 +18,12 @@ namespace burin {
 namespace {
 
 using namespace gridding;
+
+// Texels of a wide pattern's list.
+std::size_t list_texels(std::size_t references) { return (references + BURIN_WIDE_REFS_PER_TEXEL - 1) / BURIN_WIDE_REFS_PER_TEXEL; }
+
+// Bytes of a cell and its list.
+std::size_t packed_bytes(std::size_t references, bool wide) { return 8 + (wide ? 16 * list_texels(references) : 2 * references); }
 
 // Lengths and widths of a pattern, from which list lengths at any cell size can be foretold.
 struct Feature {
@@ -34,6 +42,19 @@ std::vector<Feature> features_of(const ResolvedPattern& pattern) {
     return features;
 }
 
+// Whether references will take 32 bits: pack counts the same, but for elements that it leaves out as too short.
+bool is_wide(const ResolvedPattern& pattern) {
+    const auto scaled = [](double scale) { return std::abs(scale - 1.0) * BURIN_SCALE_STEPS >= 0.5; };
+    std::size_t texels = 0;
+    for (const ResolvedElement& e : pattern.elements) {
+        const Element& c = e.element;
+        const bool has_texel_b =
+            c.kind == ElementKind::quadratic || scaled(c.width0) || scaled(c.width1) || scaled(c.height0) || scaled(c.height1);
+        texels += 1u + (has_texel_b ? 1u : 0u) + (e.function != kNoFunction ? 1u : 0u);
+    }
+    return texels > BURIN_MAX_NARROW_ELEMENT_TEXELS;
+}
+
 // Where sizes of cells are looked for from: about the mean width; where features are much narrower than the plane between them, as
 // upright walls are, a small share of that.
 double least_scale(const std::vector<Feature>& features, Vec2 size) {
@@ -44,9 +65,9 @@ double least_scale(const std::vector<Feature>& features, Vec2 size) {
     return std::max(area / length, kShare * size.x * size.y / length);
 }
 
-// What a size costs: work of a pixel, in elements of a list looked at, and bytes of the cells and of all.
+// What a size costs: work of a pixel, in elements of a list looked at, bytes of the cells and of all, and texels of lists.
 struct Cost {
-    double work = 0.0, cell_bytes = 0.0, bytes = 0.0;
+    double work = 0.0, cell_bytes = 0.0, bytes = 0.0, list_texels = 0.0;
     // A power of the bytes, so that a pattern with more of the same gets the same cells: half the bytes are worth an eighth more
     // work. Below 12 KiB bytes hardly count.
     double total() const { return work * std::pow(bytes + 12288.0, 0.2); }
@@ -66,19 +87,26 @@ constexpr double kUsualSlope = 0.7;
 // lies under the ray is followed, and what shows in the pixel is drawn.
 constexpr double kCellWork = 1.7, kAreaWork = 3.0, kFixedWork = 40.0;
 
+// Bytes of a list, by the mean number of its references. References of 32 bits fill whole texels, which adds six bytes on
+// average where there are any.
+double list_bytes(double listed, bool wide) {
+    return wide ? 4.0 * listed + 6.0 * (1.0 - std::exp(-listed)) : 2.0 * listed;
+}
+
 // A ray sinks through what lies above the ground, by and large `base_offset`, and looks at every element of a cell's list; a
 // pixel that is drawn as areas looks at the lists of all cells over which its rays fall through the relief, and once at each
 // element of theirs.
 Cost foretell(const ResolvedPattern& pattern, const std::vector<Feature>& features, double cell,
-              double margin) {
+              double margin, bool wide) {
     const double listed = elements_in(pattern, features, cell * (1.0 + 2.0 * margin));
     const double way = kUsualSlope * pattern.depth;
     const double passed = 1.0 + 2.0 * kUsualSlope * pattern.base_offset / cell, spanned = (1.0 + way / cell) * (1.0 + way / cell);
     const double met = elements_in(pattern, features, cell + way);
-    const double cells = pattern.size.x * pattern.size.y / (cell * cell), cell_bytes = cells * (8.0 + 2.0 * listed);
+    const double cells = pattern.size.x * pattern.size.y / (cell * cell), cell_bytes = cells * (8.0 + list_bytes(listed, wide));
     // An element takes two to three texels.
     const double element_bytes = 40.0 * static_cast<double>(features.size());
-    return {kFixedWork + (passed + spanned) * (kCellWork + listed) + kAreaWork * met, cell_bytes, cell_bytes + element_bytes};
+    return {kFixedWork + (passed + spanned) * (kCellWork + listed) + kAreaWork * met, cell_bytes, cell_bytes + element_bytes,
+            cells * list_bytes(listed, wide) / 16.0};
 }
 
 struct Limits {
@@ -125,7 +153,7 @@ Frame frame_of(const ResolvedPattern& pattern, const Limits& limits, double cell
     return {pattern, cols, rows, margin, {pattern.size.x / cols, pattern.size.y / rows}};
 }
 
-double cheapest_size(const ResolvedPattern& pattern, const GridOptions& options) {
+double cheapest_size(const ResolvedPattern& pattern, const GridOptions& options, bool wide) {
     const std::vector<Feature> features = features_of(pattern);
     const double largest = std::max(pattern.size.x, pattern.size.y);
     const double width = least_scale(features, pattern.size);
@@ -134,9 +162,10 @@ double cheapest_size(const ResolvedPattern& pattern, const GridOptions& options)
     double best = 0.0, best_cost = 1e300, fallback = largest;
     for (int i = 0; i <= 48; ++i) {
         const double cell = std::clamp(width * std::pow(2.0, 0.125 * i - 0.5), smallest, largest);
-        const Cost cost = foretell(pattern, features, cell, options.margin);
+        const Cost cost = foretell(pattern, features, cell, options.margin, wide);
         fallback = cell;
         if (options.max_bytes > 0 && cost.cell_bytes > static_cast<double>(options.max_bytes)) continue;
+        if (wide && cost.list_texels > BURIN_MAX_LIST_TEXELS) continue;
         if (cost.total() < best_cost) best_cost = cost.total(), best = cell;
     }
     return best > 0.0 ? best : fallback;
@@ -146,14 +175,33 @@ struct Fullest {
     std::uint32_t cell = 0, count = 0;
 };
 
-Fullest fullest_cell(const std::vector<std::vector<Hit>>& hits, std::size_t cells) {
+std::vector<std::uint32_t> count_hits(const std::vector<std::vector<Hit>>& hits, std::size_t cells) {
     std::vector<std::uint32_t> counts(cells, 0);
     for (const auto& list : hits)
         for (const Hit& hit : list) ++counts[hit.cell];
+    return counts;
+}
+
+Fullest fullest_cell(const std::vector<std::uint32_t>& counts) {
     Fullest fullest;
-    for (std::uint32_t k = 0; k < cells; ++k)
+    for (std::uint32_t k = 0; k < counts.size(); ++k)
         if (counts[k] > fullest.count) fullest = {k, counts[k]};
     return fullest;
+}
+
+// Texels that the different lists of a wide pattern fill. Lists count as one where sums over well mixed numbers of their
+// elements are equal.
+std::size_t count_list_texels(const std::vector<std::vector<Hit>>& hits, const std::vector<std::uint32_t>& counts) {
+    std::vector<std::pair<std::uint64_t, std::size_t>> lists(counts.size());  // sum and texels
+    for (std::size_t k = 0; k < counts.size(); ++k) lists[k].second = list_texels(counts[k]);
+    for (std::size_t e = 0; e < hits.size(); ++e) {
+        std::uint64_t mixed = (e + 1) * 0x9e3779b97f4a7c15u;
+        mixed = (mixed ^ mixed >> 31) * 0xbf58476d1ce4e5b9u;
+        for (const Hit& hit : hits[e]) lists[hit.cell].first += mixed ^ mixed >> 29;
+    }
+    std::sort(lists.begin(), lists.end());
+    lists.erase(std::unique(lists.begin(), lists.end()), lists.end());
+    return std::accumulate(lists.begin(), lists.end(), std::size_t{0}, [](std::size_t sum, const auto& list) { return sum + list.second; });
 }
 
 // The lists at one cell size, and what they come to.
@@ -161,16 +209,23 @@ struct Trial {
     Frame frame;
     std::vector<std::vector<Hit>> hits;
     Fullest fullest;
-    std::size_t bytes = 0;  // as grid_bytes
+    std::size_t bytes = 0;        // as grid_bytes
+    std::size_t list_texels = 0;  // of a wide pattern
     bool fits() const { return fullest.count <= BURIN_MAX_REFS_PER_CELL; }
+    // How many times what is allowed it takes.
+    double excess(std::size_t most_bytes) const {
+        const double much = most_bytes > 0 ? static_cast<double>(bytes) / static_cast<double>(most_bytes) : 0.0;
+        return std::max(much, static_cast<double>(list_texels) / BURIN_MAX_LIST_TEXELS);
+    }
 };
 
-Trial try_frame(const Frame& frame, const Chain& chain, int threads) {
-    Trial trial{frame, find_hits(frame, chain, threads), {}, 0};
-    const std::size_t cells = static_cast<std::size_t>(frame.cols) * static_cast<std::size_t>(frame.rows);
-    trial.fullest = fullest_cell(trial.hits, cells);
-    trial.bytes = 8 * cells;
-    for (const auto& list : trial.hits) trial.bytes += 2 * list.size();
+Trial try_frame(const Frame& frame, const Chain& chain, int threads, bool wide) {
+    Trial trial{frame, find_hits(frame, chain, threads), {}, 0, 0};
+    const std::vector<std::uint32_t> counts =
+        count_hits(trial.hits, static_cast<std::size_t>(frame.cols) * static_cast<std::size_t>(frame.rows));
+    trial.fullest = fullest_cell(counts);
+    for (const std::uint32_t count : counts) trial.bytes += packed_bytes(count, wide);
+    if (wide) trial.list_texels = count_list_texels(trial.hits, counts);
     return trial;
 }
 
@@ -204,21 +259,26 @@ void keep_to_budget(std::optional<Trial>& trial, double cell, std::size_t budget
     const double largest = std::max(size.x, size.y);
     constexpr double kLeastStep = 1.05;
     double most = 2.0;  // less after a step that was too long
-    while (trial->bytes > budget && cell < largest && most >= kLeastStep) {
+    while (trial->excess(budget) > 1.0 && cell < largest && most >= kLeastStep) {
         // Bytes fall with the square of the cell's side at most.
-        const double wanted = std::sqrt(static_cast<double>(trial->bytes) / static_cast<double>(budget));
-        const double step = std::clamp(wanted, kLeastStep, most);
+        const double step = std::clamp(std::sqrt(trial->excess(budget)), kLeastStep, most);
         Trial larger = try_size(cell * step);
         if (!larger.fits()) {
             most = std::sqrt(step);
             continue;
         }
         cell *= step;
-        if (larger.bytes < trial->bytes) trial.emplace(std::move(larger));
+        if (larger.excess(budget) < trial->excess(budget)) trial.emplace(std::move(larger));
     }
 }
 
 }  // namespace
+
+std::size_t grid_bytes(const CellGrid& grid, bool wide) {
+    std::size_t bytes = 0;
+    for (std::size_t k = 0; k < grid.level.size(); ++k) bytes += packed_bytes(grid.first_ref[k + 1] - grid.first_ref[k], wide);
+    return bytes;
+}
 
 Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& options) {
     if (const Status status = check_options(options); !status.ok()) return status.error();
@@ -227,10 +287,10 @@ Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& o
     const Result<Limits> limits = find_limits(pattern, chain, options.margin);
     if (!limits.ok()) return limits.error();
 
-    const bool chosen = options.cell_size > 0.0;
-    double cell = chosen ? options.cell_size : cheapest_size(pattern, options);
+    const bool chosen = options.cell_size > 0.0, wide = is_wide(pattern);
+    double cell = chosen ? options.cell_size : cheapest_size(pattern, options, wide);
     const auto try_size = [&](double side) {
-        return try_frame(frame_of(pattern, *limits, side, options.margin), chain, options.threads);
+        return try_frame(frame_of(pattern, *limits, side, options.margin), chain, options.threads, wide);
     };
     std::optional<Trial> trial(try_size(cell));
     Fullest refused;
@@ -245,7 +305,7 @@ Result<CellGrid> build_grid(const ResolvedPattern& pattern, const GridOptions& o
         trial.emplace(try_size(cell));
     }
     if (chosen && refused_frame) return too_full(*refused_frame, refused, cell);
-    if (!chosen && options.max_bytes > 0) keep_to_budget(trial, cell, options.max_bytes, try_size);
+    if (!chosen) keep_to_budget(trial, cell, options.max_bytes, try_size);
     return fill_cells(trial->frame, chain, trial->hits);
 }
 

@@ -109,7 +109,7 @@ class Packer {
     std::vector<std::uint32_t> profile_words_;
     std::map<Texel, std::uint32_t> style_index_;
     std::map<std::vector<std::uint32_t>, std::uint32_t> profile_texel_;
-    std::vector<std::uint16_t> references_;
+    std::vector<std::uint32_t> references_;
 };
 
 Packer::Failure Packer::check_input() {
@@ -272,11 +272,12 @@ Packer::Failure Packer::encode_elements() {
     for (std::size_t i = 0; i < pattern_.elements.size(); ++i) {
         if (Failure error = encode_element(i)) return error;
         if (elements_.size() > BURIN_MAX_ELEMENT_TEXELS) {
-            return limit("element " + text(i) + " of " + text(pattern_.elements.size()) +
-                         " begins beyond texel " + std::to_string(BURIN_MAX_ELEMENT_TEXELS) +
-                         ", the limit; a larger error or tile would need fewer");
+            return limit("element " + text(i) + " of " + text(pattern_.elements.size()) + " ends beyond texel " +
+                         std::to_string(BURIN_MAX_ELEMENT_TEXELS) + ", the limit; the first " + text(i) +
+                         " would fit, and a larger error or a smaller tile would need fewer");
         }
     }
+    out_.sections.element_texels = static_cast<std::uint32_t>(elements_.size());
     statistics_.styles = styles_.size();
     statistics_.profiles = profile_texel_.size();
     return {};
@@ -428,7 +429,7 @@ Packer::Failure Packer::encode_cells() {
             return invalid("the grid's first references do not grow");
         for (std::size_t r = grid_.first_ref[k]; r < grid_.first_ref[k + 1]; ++r) {
             const std::uint32_t at = element_texel_[grid_.refs[r]];
-            if (at != kDropped) lists[k].push_back(static_cast<std::uint16_t>(at));
+            if (at != kDropped) lists[k].push_back(at);
         }
         std::sort(lists[k].begin(), lists[k].end());
         lists[k].erase(std::unique(lists[k].begin(), lists[k].end()), lists[k].end());
@@ -441,19 +442,20 @@ Packer::Failure Packer::encode_cells() {
                          " columns may fit");
         }
     }
-    StoredLists stored = store_lists(lists);
+    StoredLists stored = out_.sections.wide() ? store_aligned_lists(lists, BURIN_WIDE_REFS_PER_TEXEL) : store_lists(lists, elements_.size());
     references_ = std::move(stored.references);
     statistics_.references_stored = references_.size();
-    if (references_.size() > std::size_t{BURIN_MAX_LIST_TEXELS} * BURIN_REFS_PER_TEXEL) {
-        return limit("the cells' lists hold " + text(references_.size()) + " references, limit " +
-                     std::to_string(BURIN_MAX_LIST_TEXELS * BURIN_REFS_PER_TEXEL) +
+    const std::size_t per_texel = out_.sections.references_per_texel(), most = out_.sections.max_list_texels() * per_texel;
+    if (references_.size() > most) {
+        return limit("the cells' lists hold " + text(references_.size()) + " references, limit " + text(most) +
                      "; larger cells would fit");
     }
+    out_.sections.list_texels = static_cast<std::uint32_t>((references_.size() + per_texel - 1) / per_texel);
     out_.grid_width = grid_.cols;
     out_.grid_height = grid_.rows;
     out_.grid.reserve(2 * cells);
     for (std::size_t k = 0; k < cells; ++k) {
-        const CellTexel texel = pack_cell(encode_cell(k, lists[k].size(), stored.first[k]));
+        const CellTexel texel = pack_cell(encode_cell(k, lists[k].size(), first_reference_code(out_.sections, stored.first[k])));
         out_.grid.insert(out_.grid.end(), texel.begin(), texel.end());
     }
     return {};
@@ -497,22 +499,22 @@ void choose_sides(std::size_t texels, int& width, int& height) {
 }
 
 Packer::Failure Packer::assemble() {
-    out_.sections = {
-        static_cast<std::uint32_t>(elements_.size()), static_cast<std::uint32_t>(styles_.size()),
-        static_cast<std::uint32_t>(profile_words_.size() / BURIN_POINTS_PER_TEXEL),
-        static_cast<std::uint32_t>(materials_.size()),
-        static_cast<std::uint32_t>((references_.size() + BURIN_REFS_PER_TEXEL - 1) / BURIN_REFS_PER_TEXEL),
-        static_cast<std::uint32_t>(functions_.size())};
+    Sections& sections = out_.sections;
+    sections.style_texels = static_cast<std::uint32_t>(styles_.size());
+    sections.profile_texels = static_cast<std::uint32_t>(profile_words_.size() / BURIN_POINTS_PER_TEXEL);
+    sections.material_texels = static_cast<std::uint32_t>(materials_.size());
+    sections.function_texels = static_cast<std::uint32_t>(functions_.size());
     for (const std::vector<Texel>* section : {&elements_, &styles_}) {
         for (const Texel& texel : *section) out_.data.insert(out_.data.end(), texel.begin(), texel.end());
     }
     out_.data.insert(out_.data.end(), profile_words_.begin(), profile_words_.end());
     for (const Texel& texel : materials_) out_.data.insert(out_.data.end(), texel.begin(), texel.end());
-    for (std::size_t i = 0; i < references_.size(); i += 2) {
+    if (sections.wide()) out_.data.insert(out_.data.end(), references_.begin(), references_.end());
+    for (std::size_t i = 0; i < references_.size() && !sections.wide(); i += 2) {
         const std::uint32_t high = i + 1 < references_.size() ? references_[i + 1] : 0u;
         out_.data.push_back(references_[i] | high << 16);
     }
-    out_.data.resize(std::size_t{4} * out_.sections.functions_begin(), 0u);
+    out_.data.resize(std::size_t{4} * sections.functions_begin(), 0u);
     for (const Texel& texel : functions_) out_.data.insert(out_.data.end(), texel.begin(), texel.end());
     choose_sides(out_.sections.end(), out_.data_width, out_.data_height);
     if (out_.data_width > BURIN_MAX_TEXTURE_SIDE || out_.data_height > BURIN_MAX_TEXTURE_SIDE) {

@@ -180,8 +180,9 @@ void Unpacker::read_elements() {
 void Unpacker::read_cell(std::uint32_t index) {
     CellGrid& grid = out_.grid;
     const CellCode code = unpack_cell(cell_texel(textures_, index));
+    const std::uint32_t begin = list_begin(detail_.sections, code);
     for (std::uint32_t k = 0; k < code.count; ++k) {
-        grid.refs.push_back(element_at_[list_reference(textures_, code.first_reference + k)]);
+        grid.refs.push_back(element_at_[list_reference(textures_, begin + k)]);
     }
     grid.first_ref.push_back(static_cast<std::uint32_t>(grid.refs.size()));
     grid.level.push_back(height(code.level));

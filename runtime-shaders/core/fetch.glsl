@@ -22,10 +22,15 @@ float burin_start(int spread) {
     return float(at) * (1.0f / float(BURIN_START_SPREAD));
 }
 
+// Whether references take 32 bits and lists begin on texels (layout.h, lists). Styles begin where elements end.
+bool burin_wide() {
+    return burin_map.first_style > BURIN_MAX_NARROW_ELEMENT_TEXELS;
+}
+
 BurinCell burin_cell(ivec2 index) {
     uvec2 word = fetch_cell(index);
     BurinCell cell;
-    cell.first = int(word.x & 0xfffffu);
+    cell.first = int(word.x & 0xfffffu) * (burin_wide() ? BURIN_WIDE_REFS_PER_TEXEL : 1);
     cell.count = int((word.x >> 20) & 63u);
     cell.skip = int((word.x >> 26) & 15u);
     cell.flags = word.x >> 30;
@@ -41,22 +46,15 @@ BurinCell burin_cell(ivec2 index) {
     return cell;
 }
 
-// Reference `index` of the list section, whose texel is `texel`: loops fetch it anew only where they enter one.
-uint burin_reference(uvec4 texel, int index) {
-    int slot = index % BURIN_REFS_PER_TEXEL;
-    uint word = burin_word(texel, slot / 2);
-    return slot % 2 == 0 ? word & 0xffffu : word >> 16;
-}
-
-uvec4 burin_reference_texel(int index) {
-    return fetch_data(burin_map.first_list + index / BURIN_REFS_PER_TEXEL);
-}
-
 // Reference i of a cell's list. `texel` is the caller's from one i to the next, so that each is fetched once.
 uint burin_listed(BurinCell cell, int i, BURIN_INOUT(uvec4) texel) {
+    bool wide = burin_wide();
     int index = cell.first + i;
-    if (i == 0 || index % BURIN_REFS_PER_TEXEL == 0) texel = burin_reference_texel(index);
-    return burin_reference(texel, index);
+    int slot = wide ? index % BURIN_WIDE_REFS_PER_TEXEL : index % BURIN_REFS_PER_TEXEL;
+    if (i == 0 || slot == 0) texel = fetch_data(burin_map.first_list + (wide ? index / BURIN_WIDE_REFS_PER_TEXEL : index / BURIN_REFS_PER_TEXEL));
+    uint word = burin_word(texel, wide ? slot : slot / 2);
+    if (wide) return word;
+    return slot % 2 == 0 ? word & 0xffffu : word >> 16;
 }
 
 // Exact in float: 20 bits of code, a power of two, and whole tiles.

@@ -14,6 +14,7 @@
 #include "perturbed.hpp"
 #include "random_pattern.hpp"
 #include "specification_reader.hpp"
+#include "wide_pattern.hpp"
 
 namespace burin {
 namespace {
@@ -29,18 +30,13 @@ struct Packed {
     PathDetail detail;
 };
 
-Packed packed(std::uint64_t seed, Wrap wrap) {
+Packed packed(const Pattern& pattern, int threads = 0) {
     Packed p;
-    testing::RandomPatternOptions options;
-    options.wrap = wrap;
-    if (seed % 3 == 0) options.size = {2.0, 1.0};
-    // Every other one is perturbed as well.
-    Result<ResolvedPattern> resolved = resolve_pattern(
-        seed % 2 == 0 ? testing::perturbed_pattern(seed, options) : testing::random_pattern(seed, options), {.lenient = true});
+    Result<ResolvedPattern> resolved = resolve_pattern(pattern, {.lenient = true});
     EXPECT_TRUE(resolved.ok()) << (resolved.ok() ? "" : resolved.error().message);
     if (!resolved.ok()) return p;
     p.pattern = std::move(*resolved);
-    Result<CellGrid> grid = build_grid(p.pattern);
+    Result<CellGrid> grid = build_grid(p.pattern, {.threads = threads});
     EXPECT_TRUE(grid.ok()) << (grid.ok() ? "" : grid.error().message);
     if (!grid.ok()) return p;
     p.grid = std::move(*grid);
@@ -51,6 +47,14 @@ Packed packed(std::uint64_t seed, Wrap wrap) {
     p.detail = describe_pattern(p.pattern, p.textures);
     p.ok = true;
     return p;
+}
+
+Packed packed(std::uint64_t seed, Wrap wrap) {
+    testing::RandomPatternOptions options;
+    options.wrap = wrap;
+    if (seed % 3 == 0) options.size = {2.0, 1.0};
+    // Every other one is perturbed as well.
+    return packed(seed % 2 == 0 ? testing::perturbed_pattern(seed, options) : testing::random_pattern(seed, options));
 }
 
 SpecificationReader reader_of(const Packed& p) {
@@ -98,46 +102,79 @@ TEST_P(PackProperty, TexturesAreValid) {
     }
 }
 
+struct Compared {
+    std::size_t asked = 0, compared = 0, wrong = 0, features = 0;
+};
+
 // Where the surface is smooth, heights agree to quantization. Quantization moves borders by up to two
 // coordinate steps, so points nearer than that to a border are left out; they are counted, so that the test
 // cannot starve.
+void compare_heights(const Packed& p, const ResolvedPattern& expected_of, std::uint64_t seed, int points, Compared& counts) {
+    const SpecificationReader reader = reader_of(p);
+    const Truth truth(expected_of);
+    Random random(seed);
+    for (int k = 0; k < points; ++k) {
+        const Vec2 uv = aimed_point(p.pattern, random, k);
+        const double u = uv.x, v = uv.y;
+        ++counts.asked;
+        const SpecificationReader::Answer answer = reader.height_at(u, v);
+        // Every point, also those on a border, lies within the bounds of its cell.
+        const double slack = 1e-9 * p.pattern.depth;
+        EXPECT_TRUE(answer.lowest - slack <= answer.height && answer.height <= answer.highest + slack)
+            << "uv (" << u << ", " << v << "): " << answer.height << " outside of " << answer.lowest
+            << " to " << answer.highest;
+        const double border = 8.0 * std::ldexp(std::max(p.pattern.size.x, p.pattern.size.y), -20);
+        const double edge = std::min({std::abs(u), std::abs(v), std::abs(u - 1), std::abs(v - 1)});
+        if (answer.clearance < border || edge < 1e-5) continue;
+        ++counts.compared;
+        const SurfacePoint expected = truth.surface_at({u * p.pattern.size.x, v * p.pattern.size.y});
+        if (expected.element != kGround) ++counts.features;
+        if (std::abs(answer.height - expected.height) <= 5e-4 * p.pattern.depth) continue;
+        if (++counts.wrong <= 10) {
+            ADD_FAILURE() << "uv (" << u << ", " << v << "): reader " << answer.height << " on ground "
+                          << answer.ground << ", truth " << expected.height << " on ground "
+                          << expected.ground;
+        }
+    }
+}
+
 TEST_P(PackProperty, ReaderFromTheSpecificationFindsTheSurface) {
-    std::size_t asked = 0, compared = 0, wrong = 0, features = 0;
+    Compared counts;
     for (std::uint64_t seed = 100; seed < 160; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Packed p = packed(seed, GetParam());
-        if (!p.ok) continue;
-        const SpecificationReader reader = reader_of(p);
-        const Truth truth(p.pattern);
-        Random random(seed);
-        for (int k = 0; k < 1500; ++k) {
-            const Vec2 uv = aimed_point(p.pattern, random, k);
-            const double u = uv.x, v = uv.y;
-            ++asked;
-            const SpecificationReader::Answer answer = reader.height_at(u, v);
-            // Every point, also those on a border, lies within the bounds of its cell.
-            const double slack = 1e-9 * p.pattern.depth;
-            EXPECT_TRUE(answer.lowest - slack <= answer.height && answer.height <= answer.highest + slack)
-                << "uv (" << u << ", " << v << "): " << answer.height << " outside of " << answer.lowest
-                << " to " << answer.highest;
-            const double border = 8.0 * std::ldexp(std::max(p.pattern.size.x, p.pattern.size.y), -20);
-            const double edge = std::min({std::abs(u), std::abs(v), std::abs(u - 1), std::abs(v - 1)});
-            if (answer.clearance < border || edge < 1e-5) continue;
-            ++compared;
-            const SurfacePoint expected = truth.surface_at({u * p.pattern.size.x, v * p.pattern.size.y});
-            if (expected.element != kGround) ++features;
-            if (std::abs(answer.height - expected.height) <= 5e-4 * p.pattern.depth) continue;
-            if (++wrong <= 10) {
-                ADD_FAILURE() << "uv (" << u << ", " << v << "): reader " << answer.height << " on ground "
-                              << answer.ground << ", truth " << expected.height << " on ground "
-                              << expected.ground;
-            }
-        }
+        if (p.ok) compare_heights(p, p.pattern, seed, 1500, counts);
     }
-    EXPECT_GT(compared, asked * 9 / 10);
-    EXPECT_GT(features, asked / 5);
-    EXPECT_EQ(wrong, 0u) << "of " << compared;
-    std::printf("%zu points compared, %zu on features\n", compared, features);
+    EXPECT_GT(counts.compared, counts.asked * 9 / 10);
+    EXPECT_GT(counts.features, counts.asked / 5);
+    EXPECT_EQ(counts.wrong, 0u) << "of " << counts.compared;
+    std::printf("%zu points compared, %zu on features\n", counts.compared, counts.features);
+}
+
+// References of 32 bits: the same bytes for any number of threads, valid, and the surface is the pattern's.
+TEST(PackWide, ReaderFromTheSpecificationFindsTheSurface) {
+    constexpr std::uint64_t kSeed = 70000;
+    const Pattern pattern = testing::wide_pattern(kSeed);
+    const Packed one = packed(pattern, 1), four = packed(pattern, 4);
+    ASSERT_TRUE(one.ok && four.ok);
+    EXPECT_GT(one.detail.sections.element_texels, 70000u);
+    EXPECT_TRUE(one.textures.grid == four.textures.grid && one.textures.data == four.textures.data);
+    validate_textures(one.textures, one.detail, [](const Issue& issue) {
+        ADD_FAILURE() << issue.number << " " << issue.pointer << ": " << issue.message;
+    });
+    const Result<UnpackedPattern> stored = unpack_textures(one.textures, one.detail);
+    ASSERT_TRUE(stored.ok()) << stored.error().message;
+    EXPECT_EQ(stored->grid.refs, one.grid.refs);
+    // What the grid reckons with is what is stored, but for lists that are shared.
+    const std::size_t stored_bytes = 4 * one.textures.grid.size() + 16 * std::size_t{one.detail.sections.list_texels};
+    EXPECT_GE(grid_bytes(one.grid, true), stored_bytes);
+    EXPECT_LT(grid_bytes(one.grid, true), stored_bytes * 2);
+    // The scratches are so fine that a step of a coordinate is seen in their flanks: they are asked where they are stored.
+    Compared counts;
+    compare_heights(one, stored->pattern, kSeed, 2000, counts);
+    EXPECT_EQ(counts.wrong, 0u) << "seed " << kSeed << ", of " << counts.compared;
+    EXPECT_GT(counts.features, counts.asked / 20);
+    std::printf("%zu points of %zu compared, %zu on features\n", counts.compared, counts.asked, counts.features);
 }
 
 // A groove around the tile is a loop of two elements; the one that crosses it makes the cell a special one.

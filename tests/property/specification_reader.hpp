@@ -50,7 +50,7 @@ class SpecificationReader {
         const double cu = (i + 0.5) / q_.grid_width, cv = (j + 0.5) / q_.grid_height;
         std::vector<Element> list;
         for (std::uint32_t k = 0; k < bits(x, 20, 25); ++k)
-            list.push_back(element(reference(bits(x, 0, 19) + k), cu, cv));
+            list.push_back(element(reference(bits(x, 0, 19), k), cu, cv));
         std::uint32_t level = bits(y, 0, 15);
         // The start of the walk, section 5.
         const int k = static_cast<int>(bits(x, 26, 29));
@@ -115,8 +115,11 @@ class SpecificationReader {
     static double coordinate(std::uint32_t w) { return bits(w, 0, 19) / 524288.0 - 0.5; }
 
     // Section 11.
-    unsigned reference(std::uint32_t k) const {
+    // Reference n of the list that a cell's bits 0-19 name, section 11.
+    unsigned reference(std::uint32_t first, std::uint32_t n) const {
         const unsigned lists = q_.elements + q_.styles + q_.profiles + q_.materials;
+        if (q_.elements > 65536) return data(lists + first + n / 4, n % 4);
+        const std::uint32_t k = first + n;
         const std::uint32_t w = data(lists + k / 8, k % 8 / 2);
         return k % 2 == 0 ? bits(w, 0, 15) : bits(w, 16, 31);
     }

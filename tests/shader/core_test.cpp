@@ -9,6 +9,7 @@
 #include "../judge/context.hpp"
 #include "../property/perturbed.hpp"
 #include "../property/random_pattern.hpp"
+#include "../property/wide_pattern.hpp"
 #include "patterns.hpp"
 #include "rays.hpp"
 
@@ -121,6 +122,17 @@ TEST_P(RandomCoreTest, DecoderAndShaderAgreeWithTruth) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoreTest, ::testing::Range(0, 14));
 
+// References of 32 bits, in lists that begin on texels.
+TEST(WideTest, DecoderAndShaderAgreeWithTruth) {
+    const PreparedPattern pattern = prepare(wide_pattern(kSeed));
+    ASSERT_TRUE(pattern.textures.sections.wide());
+    const std::vector<AimedRay> rays = aim_rays(pattern, ray_count() / 10, kSeed);
+    expect_agreement(judge(pattern, rays, decode_rays(pattern, rays)), "wide");
+    const auto hits = shade(pattern, rays);
+    SKIP_WITHOUT_CONTEXT(hits);
+    expect_agreement(judge(pattern, rays, *hits), "wide as shader");
+}
+
 // Textures of noise: some answer within the relief, no access out of bounds, no endless loop.
 TEST(DecoderTest, AnswersOnDamagedTextures) {
     Random random(kSeed);
@@ -135,6 +147,7 @@ TEST(DecoderTest, AnswersOnDamagedTextures) {
         for (std::uint32_t& word : textures.grid) word = std::uint32_t(random.bits());
         for (std::uint32_t& word : textures.data) word = std::uint32_t(random.bits());
         textures.sections = {5, 3, 4, 1, 5};
+        if (k % 5 == 4) textures.sections.element_texels += BURIN_MAX_NARROW_ELEMENT_TEXELS;  // styles and lists behind the texture's end
         PathDetail detail;
         detail.size_v = 2.0;
         detail.repeat = k % 2 == 0;

@@ -139,7 +139,7 @@ void add_extension_cases(std::map<int, Bytes>& cases) {
     cases[2012] = broken_extension([](json& e) { e["texCoord"] = -1; });
     cases[2013] = broken_extension([](json& e) { e["grid"]["width"] = 4097; });
     cases[2014] = broken_extension([](json& e) { e["data"]["lists"] = 1000; });
-    cases[2015] = broken_extension([](json& e) { e["data"]["elements"] = 65537; });
+    cases[2015] = broken_extension([](json& e) { e["data"]["elements"] = BURIN_MAX_ELEMENT_TEXELS + 1; });
     cases[2016] = broken_extension([](json& e) { e["grid"]["bufferView"] = 9; });
 }
 
@@ -380,6 +380,16 @@ TEST(Validate, FunctionsAreCheckedPartByPart) {
     EXPECT_EQ(texel(kPolynomial + 2, 3, 0xC0000000u), std::set<int>{4063});  // below 0 at the end
     EXPECT_EQ(numbers_of(broken_extension([](json& e) { e["data"].erase("functions"); })), std::set<int>({4012, 4053}));
     EXPECT_EQ(numbers_of(broken_extension([](json& e) { e["data"]["functions"] = 65537; })), std::set<int>{2015});
+}
+
+// A list section may be as long as a wide pattern's in a wide pattern alone.
+TEST(Validate, ListsAreAsLongAsTheirReferencesAllow) {
+    const auto lists = [](std::uint32_t elements, std::uint32_t texels) {
+        return numbers_of(broken_extension([=](json& e) { e["data"]["elements"] = elements, e["data"]["lists"] = texels; }));
+    };
+    EXPECT_EQ(lists(BURIN_MAX_NARROW_ELEMENT_TEXELS, BURIN_MAX_NARROW_LIST_TEXELS), std::set<int>{2014});
+    EXPECT_EQ(lists(BURIN_MAX_NARROW_ELEMENT_TEXELS, BURIN_MAX_NARROW_LIST_TEXELS + 1), (std::set<int>{2014, 2015}));
+    EXPECT_EQ(lists(BURIN_MAX_NARROW_ELEMENT_TEXELS + 1, BURIN_MAX_LIST_TEXELS), std::set<int>{2014});
 }
 
 TEST(Validate, SeverityIsThatOfTheKind) {

@@ -60,10 +60,9 @@ struct CellGrid {
 // Start `index` of a cell, in cell sides from its centre.
 Vec2 cell_start(std::uint32_t index);
 
-// Bytes of the cells and lists as packed, before equal lists are merged.
-inline std::size_t grid_bytes(const CellGrid& grid) {
-    return 8 * grid.level.size() + 2 * grid.refs.size();
-}
+// Bytes of the cells and lists as packed, before equal lists are merged. `wide`: its references take 32 bits, as those of a pattern
+// with more than 65536 texels of elements do.
+std::size_t grid_bytes(const CellGrid& grid, bool wide = false);
 
 // Cost model: the expected work of a pixel, drawn by rays and as areas, is cells asked, elements listed in them, and
 // elements near what it spans; beyond 12 KiB, half the bytes of elements, cells and lists count as much as an eighth of
@@ -71,9 +70,9 @@ inline std::size_t grid_bytes(const CellGrid& grid) {
 // per cell; beyond those KiB it does not depend on how large a part of a pattern is at hand. The cost is foretold from
 // lengths and widths; bytes and references are counted, and cells made larger or smaller as they ask.
 // Requires: the result of resolve_pattern (or of unpack_textures).
-// Ensures: as above; the same bytes for any thread count. Without cell_size, grid_bytes(result) <= max_bytes unless no
-// such size keeps to 63 references per cell: then cells are as large as these allow, and grid_bytes tells by how much
-// the budget is missed.
+// Ensures: as above; the same bytes for any thread count. Without cell_size, grid_bytes(result) <= max_bytes, and the different
+// lists of a wide pattern (format/SPECIFICATION.md) take at most BURIN_MAX_LIST_TEXELS, unless no such size keeps to 63 references
+// per cell: then cells are as large as these allow, and grid_bytes tells by how much the budget is missed.
 // Fails: invalid_argument for an option out of range; limit_exceeded when a cell needs more than
 // BURIN_MAX_REFS_PER_CELL references at any allowed size, naming cell, count and the size that would fit, and when an
 // element reaches around the tile.

@@ -36,8 +36,9 @@ struct PackStatistics {
 // Requires: `grid` was built from `pattern`.
 // Ensures: the textures pass validate_textures (burin/format/validate.hpp) with no error; ends that coincide
 // get equal codes, also across the border of the tile; equal levels get equal codes; identical and contained
-// lists are stored once; no whole row of the data texture is empty. Deterministic. Fails with limit_exceeded,
-// naming limit, place and value: a cell's list, an element's coordinate or scale, styles, profile points,
+// lists are stored once, contained ones of a wide pattern (more than BURIN_MAX_NARROW_ELEMENT_TEXELS texels of elements) where they begin on
+// a texel of the other; no whole row of the data texture is empty. Deterministic. Fails with limit_exceeded,
+// naming limit, place and value: elements, lists, a cell's list, an element's coordinate or scale, styles, profile points,
 // texture sides; invalid_input: a height outside [base_offset - depth, base_offset] where a level is meant,
 // an index out of range, sizes of the grid's arrays that do not agree.
 // Cost: linear in elements and cells, plus the sharing of lists, about n log n.

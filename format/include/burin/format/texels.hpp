@@ -31,6 +31,13 @@ struct Sections {
     std::uint32_t lists_begin() const { return materials_begin() + material_texels; }
     std::uint32_t functions_begin() const { return lists_begin() + list_texels; }
     std::uint32_t end() const { return functions_begin() + function_texels; }
+
+    // Whether references are too large for 16 bits and take 32, each list from a texel on.
+    bool wide() const { return element_texels > BURIN_MAX_NARROW_ELEMENT_TEXELS; }
+    std::uint32_t references_per_texel() const { return wide() ? BURIN_WIDE_REFS_PER_TEXEL : BURIN_REFS_PER_TEXEL; }
+    std::uint32_t max_list_texels() const { return wide() ? BURIN_MAX_LIST_TEXELS : BURIN_MAX_NARROW_LIST_TEXELS; }
+    // References that the list section has room for.
+    std::uint32_t references() const { return list_texels * references_per_texel(); }
 };
 
 // Both textures as integer words, ready for upload as RG32UI and RGBA32UI. Row-major; texel i of a texture of
@@ -50,7 +57,7 @@ using CellTexel = std::array<std::uint32_t, 2>;  // words x, y of a grid texel
 // ------------------------------------------------
 
 struct CellCode {
-    std::uint32_t first_reference = 0;  // [0, 2^20)
+    std::uint32_t first_reference = 0;  // [0, 2^20): a reference's index, of a wide pattern its texel; list_begin() knows
     std::uint32_t count = 0;            // [0, 63]
     std::uint32_t skip = 0;             // [0, 15] cells; with BURIN_CELL_FLAG_STEP: the start of the walk
     std::uint32_t flags = 0;            // BURIN_CELL_FLAG_*
@@ -165,6 +172,10 @@ std::uint32_t function_texel_count(const Texel& head);
 
 CellTexel cell_texel(const PackedTextures& textures, std::uint32_t index);
 Texel data_texel(const PackedTextures& textures, std::uint32_t index);
+// Index of a list's first reference; that of the reference that is `first_reference` in a cell's code, and back.
+// Requires for the way back: in a wide pattern a multiple of BURIN_WIDE_REFS_PER_TEXEL.
+std::uint32_t list_begin(const Sections& sections, const CellCode& cell);
+std::uint32_t first_reference_code(const Sections& sections, std::uint32_t index);
 // Reference `index` of the list section: an element's texel, counted from the start of the element section.
 std::uint32_t list_reference(const PackedTextures& textures, std::uint32_t index);
 // The element at a texel of the data texture, the function at one of the function section.
