@@ -40,6 +40,12 @@ Result<Made> make(const Arguments& arguments, const OptionalModel& model) {
                 stats.grid_bytes + stats.data_bytes + residual.png.size(), notes_on(done->map, stats, &residual)};
 }
 
+// The file that the pattern comes from.
+std::string source_of(const Arguments& arguments) {
+    const bool in_space = arguments.command == "pack" && arguments.given("--paths-3d");
+    return in_space ? arguments.text("--paths-3d") : arguments.file;
+}
+
 struct Built {
     std::vector<std::uint8_t> glb;
     std::vector<Made> patterns;  // without their bytes
@@ -109,7 +115,7 @@ Report describe(const std::string& output, const Recipe& recipe, const Built& bu
     for (std::size_t i = 0; i < built.patterns.size(); ++i) {
         const Made& made = built.patterns[i];
         const Arguments& arguments = recipe.patterns[i].arguments;
-        rows.rows.push_back({{"from", "from", arguments.file, ""}, {"command", "command", arguments.command, ""},
+        rows.rows.push_back({{"from", "from", source_of(arguments), ""}, {"command", "command", arguments.command, ""},
                              {"material", "material", built.materials[i], ""}, {"tex_coord", "uv set", std::int64_t{arguments.integer("--tex-coord")}, "uv set " + arguments.text("--tex-coord")},
                              count("paths", made.paths), count("lines", made.lines),
                              count("quadratics", made.quadratics), count("profiles", made.profiles),
@@ -126,7 +132,7 @@ Report describe(const std::string& output, const Recipe& recipe, const Built& bu
 std::vector<std::string> inputs_of(const Arguments& arguments, const Recipe& recipe) {
     std::vector<std::string> inputs{arguments.file, recipe.model};
     for (const auto& [place, pattern] : recipe.patterns) {
-        inputs.push_back(pattern.file);
+        inputs.push_back(source_of(pattern));
         if (pattern.command == "pack") inputs.push_back(pattern.text("--font"));
     }
     return inputs;

@@ -16,7 +16,7 @@ namespace {
 
 // What stands in a recipe once for all patterns, or would write files of its own.
 constexpr std::array kNotOfPatterns{"--output", "--model", "--report", "--error-map", "--threads", "--format", "--quiet"};
-constexpr Command kMakers[] = {{"convert", "MAP", "", run_convert}, {"pack", "DRAWING", "", run_pack}};
+constexpr Command kMakers[] = {{"convert", "MAP", "", run_convert}, {"pack", "DRAWING", "", run_pack, nullptr, "--paths-3d"}};
 
 // "max_error" for --max-error.
 std::string property_of(const OptionSpec& spec) {
@@ -93,23 +93,26 @@ class RecipeReader {
     void read_pattern(const JsonValue& value) {
         if (json_.failed()) return;
         JsonObject object(json_, value);
-        const JsonValue* from = object.need("from");
+        // Lines drawn in space stand in for a drawing.
+        const JsonValue* lines = object.find("paths_3d");
+        const JsonValue* from = lines != nullptr ? lines : object.need("from");
         const std::string file = from == nullptr || json_.failed() ? "" : file_named(*from);
-        const bool is_drawing = from != nullptr && !json_.failed() && looks_like_drawing(file);
+        const bool is_drawing = lines != nullptr || (from != nullptr && !json_.failed() && looks_like_drawing(file));
         const std::string command = is_drawing ? "pack" : "convert";
+        const std::string source = lines != nullptr ? "--paths-3d=" + file : file;
         std::vector<std::string> options;
         for (const OptionSpec& spec : option_table()) {
             if (!belongs(spec, command) || std::count(kNotOfPatterns.begin(), kNotOfPatterns.end(), long_name(spec)) > 0) continue;
             const JsonValue* given = object.find(property_of(spec).c_str());
-            if (given == nullptr || json_.failed()) continue;
+            if (given == nullptr || given == lines || json_.failed()) continue;
             // The one option that names a file.
             const bool names_file = long_name(spec) == "--font";
             options.push_back(long_name(spec) + "=" + (names_file ? file_named(*given) : word_of(json_, *given, spec)));
-            if (const auto alone = parse(command, file, {options.back()}); !alone) json_.refuse(*given, alone.error().message);
+            if (const auto alone = parse(command, source, {options.back()}); !alone) json_.refuse(*given, alone.error().message);
         }
         object.finish();
         if (json_.failed()) return;
-        const auto request = parse(command, file, options);
+        const auto request = parse(command, source, options);
         if (!request) return json_.refuse(value, request.error().message);
         recipe_.patterns.push_back({build_.file + ":" + std::to_string(value.line) + ": " + json_.place_of(value), request->arguments});
     }

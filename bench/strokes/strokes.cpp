@@ -19,7 +19,7 @@ struct Sum {
 };
 
 void print_head() {
-    std::printf("| body | strokes | pieces | borders | elements | farthest element | farthest groove | width, most | width, rms | widths off by 2 % | missing | ms |\n");
+    std::puts("| body | strokes | pieces | borders | elements | farthest element | farthest groove | width, most | width, rms | widths off by 2 % | missing | ms |");
     std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 

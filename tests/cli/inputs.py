@@ -182,6 +182,7 @@ def write_inputs(folder):
         "font.svg": FONT.encode(),
         "plane.obj": OBJ.encode(),
         "strokes.json": json.dumps(STROKES).encode(),
+        "space_recipe.json": json.dumps({"model": "plane.obj", "patterns": [{"paths_3d": "lines.obj", "stroke": "groove vee 10mm 40mm"}]}).encode(),
         "recipe.json": json.dumps(RECIPE).encode(),
         "broken.gltf": b'{"asset": {"version": "2.0"}, "scenes": [',
         "no_pattern.gltf": plane_gltf(["brass"]).encode(),

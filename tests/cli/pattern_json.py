@@ -250,7 +250,7 @@ def check_spoilt(checker, count):
 
 def options_of(burin, command):
     shown = subprocess.run([burin, command, "--help"], capture_output=True, text=True, check=True).stdout
-    return set(re.findall(r"^ +--([a-z-]+)", shown, re.M))
+    return set(re.findall(r"^ +--([a-z0-9-]+)", shown, re.M))
 
 
 def check_recipe_schema(checker, recipe):
