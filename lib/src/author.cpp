@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
 
 #include <burin/rasterize.hpp>
 
@@ -52,6 +53,10 @@ Result<AuthoredTextures> author_textures(const Pattern& pattern, const AuthorOpt
     const auto resolved = times.run("resolve", [&] { return resolve_pattern(pattern, options.resolve); });
     if (!resolved) return resolved.error();
     count(pattern, *resolved, out.stats);
+    // The fallback asks for the resolved pattern alone: it is baked beside the stages to come, which leave cores idle.
+    AuthorStats beside;
+    std::future<Fallback> baking =
+        std::async(std::launch::async, [&] { return StageTimes(beside).run("bake", [&] { return fallback_of(*resolved, options); }); });
     GridOptions grid_options = options.grid;
     grid_options.threads = options.threads;
     const auto grid = times.run("grid", [&] { return build_grid(*resolved, grid_options); });
@@ -64,7 +69,8 @@ Result<AuthoredTextures> author_textures(const Pattern& pattern, const AuthorOpt
     out.stats.cells = out.textures.grid_width * out.textures.grid_height;
     out.stats.grid_bytes = out.textures.grid.size() * sizeof(std::uint32_t);
     out.stats.data_bytes = out.textures.data.size() * sizeof(std::uint32_t);
-    out.fallback = times.run("bake", [&] { return fallback_of(*resolved, options); });
+    out.fallback = baking.get();
+    out.stats.seconds.insert(out.stats.seconds.end(), beside.seconds.begin(), beside.seconds.end());
     return out;
 }
 
