@@ -49,7 +49,8 @@ class ProfileList {
 
     struct Section {
         std::uint32_t index = 0;
-        double width = 0.0, height = 0.0;  // of scale 1; height below 0 for a groove
+        double width = 0.0;              // of scale 1
+        double lowest = 0.0, highest = 0.0;  // of the section, from the ground: material thrown up lies above it, beside a groove too
     };
     // Of a line that is `width` metres wide where it is widest.
     Result<Section> of_stroke(const Meaning& meaning, double width) {
@@ -60,7 +61,9 @@ class ProfileList {
         if (const auto found = sections_.find(key); found != sections_.end()) return found->second;
         auto profile = make_profile(spec, width, height);
         if (!profile) return profile.error();
-        const Section section{add(std::move(*profile)), width, height};
+        Section section{0, width, 0.0, 0.0};
+        for (const ProfilePoint& p : profile->points) section.lowest = std::min(section.lowest, p.h), section.highest = std::max(section.highest, p.h);
+        section.index = add(std::move(*profile));
         sections_.emplace(key, section);
         return section;
     }
@@ -340,7 +343,7 @@ class Drawing {
             if (!section) return section.error();
             path.profile = profiles_.of_stroked_step(section->index, rise);
             path.join = stroke.join;
-            note_heights(stroke.meaning, section->height);
+            note_heights(*section, 1.0);
         }
         for (std::size_t k = 0; k < span.count; ++k) {
             const std::size_t i = (span.begin + k) % n;
@@ -348,9 +351,13 @@ class Drawing {
             if (on[i] != nullptr && on[i]->stroke == span.stroke) take_over(*on[i], run.sources[i], e);
             path.elements.push_back(e);
         }
+        level_low_ = std::min({level_low_, run.left, run.right}), level_high_ = std::max({level_high_, run.left, run.right});
+        // An edge may throw material up beyond both levels.
+        if (span.stroke == kNone)
+            for (const ProfilePoint& p : out_.pattern.profiles[path.profile].points)
+                level_low_ = std::min(level_low_, run.left + p.h), level_high_ = std::max(level_high_, run.left + p.h);
         const std::size_t region = run.sources[span.begin % n].region;
         add_path(std::move(path), region == kNone ? "" : document_.shapes[region_shapes_[region]].place);
-        level_low_ = std::min({level_low_, run.left, run.right}), level_high_ = std::max({level_high_, run.left, run.right});
         return Done{};
     }
 
@@ -435,14 +442,13 @@ class Drawing {
             if (!even) e.height0 = e.width0, e.height1 = e.width1;
             highest = std::max({highest, e.height0, e.height1});
         }
-        note_heights(stroke.meaning, section->height * highest);
+        note_heights(*section, highest);
         add_path(std::move(path), document_.shapes[stroke.shape].place);
         return Done{};
     }
 
-    void note_heights(const Meaning& meaning, double height) {
-        if (meaning.kind == Kind::groove) groove_ = std::min(groove_, height);
-        else ridge_ = std::max(ridge_, height);
+    void note_heights(const ProfileList::Section& section, double scale) {
+        groove_ = std::min(groove_, section.lowest * scale), ridge_ = std::max(ridge_, section.highest * scale);
     }
 
     // Specks that nobody sees are left out: slivers where outlines nearly coincide.
@@ -454,7 +460,7 @@ class Drawing {
         out_.sources.push_back(place);
     }
 
-    // The object surface touches what is highest; overhanging profiles may reach beyond their own height.
+    // The object surface touches what is highest: the highest section as if it stood on the highest level.
     void bound_heights() {
         Pattern& pattern = out_.pattern;
         const double high = std::max(own_high_, level_high_ + ridge_), low = std::min(own_low_, level_low_ + groove_);
